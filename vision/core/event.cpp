@@ -1,0 +1,61 @@
+#include "vision/core/event.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace armsreach {
+namespace {
+
+using nlohmann::json;
+
+json json_from_pose(const Pose& pose) {
+  const Eigen::Vector3d& t = pose.translation();
+  const Eigen::Quaterniond& q = pose.rotation();
+  return {{"translation", {t.x(), t.y(), t.z()}}, {"rotation", {q.x(), q.y(), q.z(), q.w()}}};
+}
+
+template <class ObjectEvent>
+json json_from_object(const char* type, const ObjectEvent& e) {
+  return {{"type", type},
+          {"object", e.object},
+          {"id", e.id},
+          {"world_from_object", json_from_pose(e.world_from_object)}};
+}
+
+struct BodyToJson {
+  json operator()(const TrackingEvent& e) const {
+    return {{"type", "tracking"}, {"state", name(e.state)}, {"rms", e.rms}, {"inliers", e.inliers}};
+  }
+  json operator()(const InsertEvent& e) const { return json_from_object("insert", e); }
+  json operator()(const MoveEvent& e) const { return json_from_object("move", e); }
+  json operator()(const DeleteEvent& e) const { return json_from_object("delete", e); }
+  json operator()(const FaultEvent& e) const {
+    return {{"type", "fault"},
+            {"component", e.component},
+            {"message", e.message},
+            {"remedy", e.remedy}};
+  }
+};
+
+}  // namespace
+
+std::string_view name(TrackingState state) {
+  switch (state) {
+    case TrackingState::initialising:
+      return "initialising";
+    case TrackingState::tracking:
+      return "tracking";
+    case TrackingState::lost:
+      return "lost";
+    case TrackingState::relocalised:
+      return "relocalised";
+  }
+  return "";
+}
+
+json json_from_event(const Event& event) {
+  json object = std::visit(BodyToJson{}, event.body);
+  object["t"] = seconds_from_timestamp(event.time);
+  return object;
+}
+
+}  // namespace armsreach

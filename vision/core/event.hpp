@@ -1,0 +1,58 @@
+// Events: what the program has to say, one JSON object a line. Every fallback is an event.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+#include <nlohmann/json_fwd.hpp>
+
+#include "vision/core/pose.hpp"
+#include "vision/core/time.hpp"
+
+namespace armsreach {
+
+enum class TrackingState { initialising, tracking, lost, relocalised };
+std::string_view name(TrackingState state);
+
+struct TrackingEvent {
+  TrackingState state;
+  double rms;   // of the weighted residuals, in units of their robust scale
+  int inliers;  // pixels
+};
+
+struct InsertEvent {
+  std::string object;  // mesh name
+  std::int64_t id;
+  Pose world_from_object;
+};
+struct MoveEvent {
+  std::string object;
+  std::int64_t id;
+  Pose world_from_object;
+};
+struct DeleteEvent {
+  std::string object;
+  std::int64_t id;
+  Pose world_from_object;  // where it last stood
+};
+
+struct FaultEvent {
+  std::string component;
+  std::string message;
+  std::string remedy;
+};
+
+struct Event {
+  Timestamp time;
+  std::variant<TrackingEvent, InsertEvent, MoveEvent, DeleteEvent, FaultEvent> body;
+};
+using Events = std::vector<Event>;
+
+// {"t": seconds, "type": ..., ...}; poses are {"translation": [x,y,z], "rotation": [x,y,z,w]}.
+nlohmann::json json_from_event(const Event& event);
+
+}  // namespace armsreach
