@@ -8,18 +8,14 @@
 #include <opencv2/core/mat.hpp>
 
 #include "vision/core/camera.hpp"
+#include "vision/core/event.hpp"
 #include "vision/core/frame.hpp"
 #include "vision/core/pose.hpp"
 
 namespace armsreach {
 
-enum class TrackingState {
-  initialising,  // nothing to align against yet: the pose is the start pose, true by definition
-  tracking,      // aligned, and the alignment is trusted
-  lost,          // not aligned: the pose is only a prediction. Map nothing from it
-  relocalised,   // found again by other means, not yet confirmed by alignment
-};
-
+// While initialising there is nothing to align against yet and the pose is the start pose, true by
+// definition. A lost frame's pose is only a prediction.
 struct TrackedFrame {
   FramePtr frame;
   Pose world_from_camera;
