@@ -6,7 +6,6 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
-#include <string>
 #include <system_error>
 #include <vector>
 
@@ -90,8 +89,8 @@ Result<cv::Mat> decode(const std::filesystem::path& file, int flags) {
   return image;
 }
 
-std::string size_text(int width, int height) {
-  return std::to_string(width) + "x" + std::to_string(height);
+std::string size_text(const cv::Size& size) {
+  return std::to_string(size.width) + "x" + std::to_string(size.height);
 }
 
 }  // namespace
@@ -124,12 +123,12 @@ Result<cv::Mat> read_depth_image(const std::filesystem::path& file, double units
   return depth;
 }
 
-Status check_size(const cv::Mat& image, const Camera& camera, const std::string& kind,
-                  const std::filesystem::path& file) {
-  if (image.cols == camera.width && image.rows == camera.height) return ok();
-  return Error{"the " + kind + " image is " + size_text(image.cols, image.rows) + ", its camera " +
-                   size_text(camera.width, camera.height),
-               file.string(), "give the camera file that belongs to these images with --camera"};
+Status check_size(const cv::Size& size, const Camera& camera, const std::string& kind,
+                  const std::string& where) {
+  if (size == cv::Size(camera.width, camera.height)) return ok();
+  return Error{"the " + kind + " image is " + size_text(size) + ", its camera " +
+                   size_text({camera.width, camera.height}),
+               where, "give the camera file that belongs to these images with --camera"};
 }
 
 }  // namespace armsreach
