@@ -1,9 +1,9 @@
 // Vectors of the processor's own width, for files compiled with armsreach_isa_levels(). A loop over
 // blocks of kBlock elements that keeps kBlock running sums gives the same bits at every level.
 //
-// Everything here is static and always inlined: a function with external linkage would exist once in
-// the program, compiled for whichever level the linker happened to keep. For the same reason such
-// files use no templates of the standard library.
+// Everything here is static and always inlined: a function with external linkage would exist once
+// in the program, compiled for whichever level the linker happened to keep. For the same reason
+// such files use no templates of the standard library.
 #pragma once
 
 #include <cstdint>

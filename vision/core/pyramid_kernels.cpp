@@ -68,9 +68,9 @@ void depth_row(const float* depth, int step, int width, int factor, float* scrat
   const float least_known = 0.25F * static_cast<float>(factor * factor);
   for (int block = 0; block < blocks; ++block) {
     const bool known = reduced[block] > 0 && reduced[block] >= least_known;
-    reduced[block] = known ? block_sum(sum + block * factor, factor) /
-                                 block_sum(counts + block * factor, factor)
-                           : __builtin_nanf("");
+    reduced[block] =
+        known ? block_sum(sum + block * factor, factor) / block_sum(counts + block * factor, factor)
+              : __builtin_nanf("");
   }
 }
 

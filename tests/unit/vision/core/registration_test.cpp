@@ -23,8 +23,7 @@ TEST(Registration, APlaneHasItsDepthInTheOtherCamera) {
           static_cast<float>(1.2 / normal.dot(unproject(depth_camera, Eigen::Vector2d(x, y))));
     }
   }
-  const cv::Mat registered =
-      registered_depth(depth, depth_camera, color_camera, color_from_depth);
+  const cv::Mat registered = registered_depth(depth, depth_camera, color_camera, color_from_depth);
   const Eigen::Vector3d normal_in_color = color_from_depth.rotation() * normal;
   const double offset = 1.2 + normal_in_color.dot(color_from_depth.translation());
   int known = 0;
