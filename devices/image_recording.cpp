@@ -82,6 +82,15 @@ Result<std::vector<fs::path>> images_by_name(const fs::path& folder) {
   return files;
 }
 
+// Of the first image that can be read; the others' errors are for whoever reads them.
+Result<cv::Size> first_size(const std::vector<fs::path>& files) {
+  for (const fs::path& file : files) {
+    if (const auto image = read_color_image(file)) return image->size();
+  }
+  return Error{"none of the " + std::to_string(files.size()) + " images can be read",
+               files.front().parent_path().string(), "copy the images again"};
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Recording>> open_image_recording(const fs::path& folder, double rate,
@@ -89,10 +98,10 @@ Result<std::unique_ptr<Recording>> open_image_recording(const fs::path& folder, 
   const bool has_frames = folder_exists(folder / "frames");
   auto files = images_by_name(has_frames ? folder / "frames" : folder);
   if (!files) return std::move(files).error();
-  auto first = read_color_image(files->front());
-  if (!first) return std::move(first).error();
-  auto calibration = calibration_or_guess(options, folder / "camera.yaml", first->cols, first->rows,
-                                          "images:" + folder.string());
+  auto size = first_size(*files);
+  if (!size) return std::move(size).error();
+  auto calibration = calibration_or_guess(options, folder / "camera.yaml", size->width,
+                                          size->height, "images:" + folder.string());
   if (!calibration) return std::move(calibration).error();
   SensorInfo sensor;
   sensor.name = options.sensor;

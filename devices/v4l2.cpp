@@ -107,7 +107,7 @@ Result<std::unique_ptr<Source>> open_v4l2_camera(const SourceSpec& spec,
     capture.set(cv::CAP_PROP_FRAME_WIDTH, options.camera->camera.width);
     capture.set(cv::CAP_PROP_FRAME_HEIGHT, options.camera->camera.height);
   }
-  cv::Mat first;
+  cv::Mat first;  // a device that opens and stays silent is given up by OpenCV after 10 s
   if (!capture.isOpened() || !capture.read(first) || first.empty()) {
     return Error{"the camera gives no image", device,
                  "close other programs that use it: sudo fuser -v " + device, Error::Kind::device};

@@ -67,6 +67,16 @@ TEST(ImageRecording, CalibrationComesFromTheFolderAndFramesFromWithin) {
   EXPECT_TRUE((*recording)->take_events().empty());
 }
 
+TEST(ImageRecording, ABrokenFirstImageDoesNotHideTheOthers) {
+  const TemporaryFolder folder;
+  folder.write("a.png", "not an image");
+  cv::imwrite(folder / "b.png", color_image(32, 24, 0));
+  const auto recording = open_image_recording(folder.path(), 30, {});
+  ASSERT_TRUE(recording) << recording.error().message();
+  EXPECT_FALSE((*recording)->read(0));
+  EXPECT_TRUE((*recording)->read(1));
+}
+
 TEST(ImageRecording, RefusesWhatIsNotAFolderOfImages) {
   const TemporaryFolder folder;
   EXPECT_NE(open_image_recording(folder.path(), 30, {}).error().what.find("no images"),
@@ -107,7 +117,9 @@ TEST(ImageRecording, AThumbnailsEndIsNotThePicturesEnd) {
   folder.write("a.jpg", picture.substr(0, 2) + thumbnail + picture.substr(2));
   EXPECT_TRUE(open_image_recording(folder.path(), 30, {}));
   folder.truncate("a.jpg", 0.7);
-  EXPECT_FALSE(open_image_recording(folder.path(), 30, {}));
+  const auto broken = open_image_recording(folder.path(), 30, {});
+  ASSERT_FALSE(broken);
+  EXPECT_EQ(broken.error().what, "none of the 1 images can be read");
 }
 
 TEST(ImageRecordingReal, MonoDesk) {
