@@ -17,7 +17,7 @@
 
 namespace armsreach::mapping {
 
-struct DepthPlanes;
+class DepthBand;
 struct FrameEvidence;
 
 struct VoxelMapOptions {
@@ -30,7 +30,9 @@ struct VoxelMapOptions {
   double most_certain = 0.971;    // was carried away is forgotten within ten frames
   double max_weight = 100;        // frontal observations from 1 m that the distance remembers
   double intensity_rate = 0.1;    // least share a new intensity has in the mean
-  bool carve = true;              // also clear known voxels far in front of what is seen now
+  // Every so many insertions also clear what the map still has in front of the band: things that
+  // were carried away. 0: never.
+  int carve_every = 2;
   // Memory bound: 4.2 kB a block; mapped surface takes about 1.5 MB a square metre at 1 cm. Beyond
   // it the regions that were seen longest ago are forgotten.
   std::size_t max_blocks = 60'000;
@@ -58,15 +60,14 @@ class VoxelMap {
   void put(const BlockKey& key, const Block& block);
 
  private:
-  void update(const std::vector<BlockKey>& keys, const FrameEvidence& frame,
+  void update(const std::vector<BlockKey>& keys, const DepthBand& band, const FrameEvidence& frame,
               const Pose& camera_from_world);
-  std::vector<BlockKey> known_in_front(const std::vector<BlockKey>& banded,
-                                       const DepthPlanes& planes, const Camera& camera,
-                                       const Pose& camera_from_world) const;
+  std::vector<BlockKey> occupied_in_view(const Camera& camera, const Pose& camera_from_world) const;
 
   VoxelMapOptions options_;
   VoxelGrid grid_;
   HitTable hits_;
+  std::int64_t insertions_ = 0;
   std::vector<BlockKey> changed_;
 };
 
