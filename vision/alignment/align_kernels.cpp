@@ -20,10 +20,8 @@ struct Sample {
 };
 
 ARMSREACH_INLINE Sample sample(const float* plane, int stride, Int at, Float fx, Float fy) {
-  const Float v00 = lanes::gather(plane, at);
-  const Float v01 = lanes::gather(plane + 1, at);
-  const Float v10 = lanes::gather(plane + stride, at);
-  const Float v11 = lanes::gather(plane + stride + 1, at);
+  const auto [v00, v01] = lanes::gather_pair(plane, at);
+  const auto [v10, v11] = lanes::gather_pair(plane + stride, at);
   const Float upper = v01 - v00;
   const Float lower = v11 - v10;
   const Float left = v00 + fy * (v10 - v00);
@@ -37,8 +35,9 @@ struct Ray {
 
 // The inverse depth of a plane through the source's pixel, as its gradient says, is rho = n . ray
 // with n = (gx, gy, rho - gx x - gy y). After the motion it is n' = R n / (1 + R n . t).
+// Returned times its denominator, which saves a division.
 struct Gradient {
-  Float X, Y;
+  Float X, Y, denominator;
 };
 ARMSREACH_INLINE Gradient moved_gradient(const Warp& warp, Ray ray, Float rho, Float gx, Float gy) {
   const Float gz = rho - gx * ray.x - gy * ray.y;
@@ -47,8 +46,7 @@ ARMSREACH_INLINE Gradient moved_gradient(const Warp& warp, Ray ray, Float rho, F
   const Float ny = R[1][0] * gx + R[1][1] * gy + R[1][2] * gz;
   const Float nz = R[2][0] * gx + R[2][1] * gy + R[2][2] * gz;
   const auto& t = warp.translation;
-  const Float scale = 1.0F / (1.0F + nx * t[0] + ny * t[1] + nz * t[2]);
-  return {scale * nx, scale * ny};
+  return {nx, ny, 1.0F + nx * t[0] + ny * t[1] + nz * t[2]};
 }
 
 ARMSREACH_INLINE void warp_lanes(const Planes& source, const Planes& target, const Warp& warp,
@@ -60,7 +58,15 @@ ARMSREACH_INLINE void warp_lanes(const Planes& source, const Planes& target, con
   const Float qx = R[0][0] * ray.x + R[0][1] * ray.y + R[0][2] + t[0] * rho;
   const Float qy = R[1][0] * ray.x + R[1][1] * ray.y + R[1][2] + t[1] * rho;
   const Float qz = R[2][0] * ray.x + R[2][1] * ray.y + R[2][2] + t[2] * rho;
-  const Float per_z = 1.0F / qz;
+  const Gradient gradient =
+      moved_gradient(warp, ray, rho, source.fx * lanes::load(source.inverse_depth_x + at),
+                     source.fy * lanes::load(source.inverse_depth_y + at));
+  // The gradient may be unknown where the point is not, and must not spoil it.
+  const auto smooth_source = gradient.denominator > 0.0F;
+  const Float denominator = smooth_source ? gradient.denominator : lanes::all(1.0F);
+  const Float quotient = 1.0F / (qz * denominator);
+  const Float per_z = quotient * denominator;
+  const Float per_denominator = quotient * qz;
   const Float X = qx * per_z;
   const Float Y = qy * per_z;
   const Float rho_warped = rho * per_z;
@@ -76,14 +82,10 @@ ARMSREACH_INLINE void warp_lanes(const Planes& source, const Planes& target, con
   const Int cell = row * target.stride + col;
 
   const Sample depth = sample(target.inverse_depth, target.stride, cell, fx, fy);
-  const Gradient depth_gradient =
-      moved_gradient(warp, ray, rho, source.fx * lanes::load(source.inverse_depth_x + at),
-                     source.fy * lanes::load(source.inverse_depth_y + at));
   const Float steepest = lanes::max(lanes::abs(depth.x), lanes::abs(depth.y));
-  const auto smooth = inside & (steepest <= kDiscontinuity * depth.value);
-  const Float depth_gX = 0.5F * (target.fx * depth.x + depth_gradient.X);
-  const Float depth_gY = 0.5F * (target.fy * depth.y + depth_gradient.Y);
-  const auto depth_known = smooth & (depth_gX == depth_gX);
+  const Float depth_gX = 0.5F * (target.fx * depth.x + per_denominator * gradient.X);
+  const Float depth_gY = 0.5F * (target.fy * depth.y + per_denominator * gradient.Y);
+  const auto depth_known = inside & smooth_source & (steepest <= kDiscontinuity * depth.value);
 
   const Sample grey = sample(target.intensity, target.stride, cell, fx, fy);
   const Float grey_gX =

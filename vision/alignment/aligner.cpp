@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kTukey = 4.685;  // cutoff in deviations; 95 % efficient on normal residuals
 // Quantisation alone leaves this much, so that exact images do not divide by zero.
-constexpr ResidualScales kLeastScales{1e-4, 2e-3};
+constexpr ResidualScales kLeastScales{3e-4, 2e-3};
 constexpr int kScaleSamples = 2048;  // residuals a median is taken of
 constexpr int kLeastResiduals = 64;
 constexpr double kConverged = 2e-6;  // m and rad
