@@ -95,8 +95,7 @@ CameraPath::CameraPath(const PathDescription& description, std::uint64_t seed)
     for (int i = 0; i < band.sines; ++i) {
       const double rate = random.uniform(band.low, band.high);
       const double turns = std::max(1.0, std::round(rate * duration_));
-      axis.push_back({rms * std::sqrt(2.0 / band.sines),
-                      2 * std::numbers::pi * turns / duration_,
+      axis.push_back({rms * std::sqrt(2.0 / band.sines), 2 * std::numbers::pi * turns / duration_,
                       random.uniform(0, 2 * std::numbers::pi)});
     }
   };

@@ -48,8 +48,10 @@ enum class Pattern {
   cardboard,  // ground
   glaze,      // ground, band, speck
   label,      // ground, band, ink, accent: a packet's or tin's print
-  picture,    // frame, mount, then the palette
   book,       // cover, ink, accent
+  landscape,  // frame, mount, sky, sun, then hills from far to near: a picture
+  shapes,     // frame, mount, ground, then shapes: a picture
+  leaves,     // frame, mount, ground, leaf, leaf: a picture
 };
 
 struct Material {

@@ -51,9 +51,7 @@ class Map {
     if (!node_.IsMap()) throw Complaint{"'" + name_ + "' is not a map"};
   }
 
-  std::string path(const std::string& key) const {
-    return name_.empty() ? key : name_ + "." + key;
-  }
+  std::string path(const std::string& key) const { return name_.empty() ? key : name_ + "." + key; }
 
   // Null when it is not there.
   YAML::Node find(const std::string& key) {
@@ -188,7 +186,8 @@ constexpr std::array kPatterns{
     PatternName{"fabric", Pattern::fabric, 3},       PatternName{"tiles", Pattern::tiles, 3},
     PatternName{"plaster", Pattern::plaster, 1},     PatternName{"glaze", Pattern::glaze, 3},
     PatternName{"cardboard", Pattern::cardboard, 1}, PatternName{"label", Pattern::label, 4},
-    PatternName{"picture", Pattern::picture, 5},     PatternName{"book", Pattern::book, 3}};
+    PatternName{"landscape", Pattern::landscape, 6}, PatternName{"book", Pattern::book, 3},
+    PatternName{"shapes", Pattern::shapes, 5},       PatternName{"leaves", Pattern::leaves, 5}};
 
 Material material_from(const std::string& name, Map map) {
   Material material;
