@@ -93,7 +93,7 @@ DepthInterval DepthBand::pixel_interval(int u, int v) const {
   const float x = (static_cast<float>(u) - static_cast<float>(camera_.cx)) / fx;
   const float y = (static_cast<float>(v) - static_cast<float>(camera_.cy)) / fy;
   const float along = plane.x * x + plane.y * y + plane.z;
-  const float depth = plane.distance / along;
+  const float depth = std::abs(plane.distance) / along;
   // How far the plane's depth moves within the pixel.
   const float slant = (std::abs(plane.x) / fx + std::abs(plane.y) / fy) / (2 * along);
   const float slack = depth * std::min(slant, 0.2F);
@@ -115,7 +115,7 @@ void DepthBand::add_tile(int column, int row) {
   const std::size_t first = cones_.size();
   for (int v = v0; v < v1; ++v) {
     for (int u = u0; u < u1; ++u) {
-      if (planes_.at(u, v).distance <= 0) continue;
+      if (planes_.at(u, v).distance == 0) continue;
       const DepthInterval depths = pixel_interval(u, v);
       cones_.push_back({static_cast<float>(u), static_cast<float>(v), 1, depths});
       widen(whole, depths);

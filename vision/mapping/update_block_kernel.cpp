@@ -31,6 +31,7 @@ struct Surface {
   Floats sigma;
   Floats along;  // the voxel's component along the plane's normal
   Ints known;
+  Ints trusted;
 };
 
 template <class Mask>
@@ -98,7 +99,8 @@ inline void meet_surface(Surface& s, const Cube& cube, const FrameEvidence& f) {
   transpose(planes, plane);
   s.along = plane[0] * cube.x + plane[1] * cube.y + plane[2] * cube.z;
   s.known = s.along > 0.0F;
-  s.distance = plane[3] - s.along;
+  s.trusted = plane[3] > 0.0F;
+  s.distance = (s.trusted ? plane[3] : -plane[3]) - s.along;
   s.ahead = cube.z * s.distance / s.along;
   s.depth = cube.z + s.ahead;
   s.sigma = f.noise * s.depth * s.depth;
@@ -222,11 +224,12 @@ inline bool update_cube(Block& block, int at, const float (&start)[3], const Fra
   Floats margin = 3.0F * s.sigma;
   most(margin, Floats{} + 0.5F);
   // Behind the margin nothing is said about occupancy: the rest of the band is left alone.
-  Ints banded = s.known & (s.ahead <= band) & (s.ahead >= -margin);
+  Ints banded = s.known & (s.ahead <= band) & (s.ahead >= (s.trusted ? -margin : margin));
   // Interpolation needs all eight voxels around the surface: two edges behind it, however slanted.
   Floats behind = 2.0F * s.sigma;
   most(behind, Floats{} + 2.0F);
-  Ints valid = s.known & (s.distance >= -behind) & ((s.ahead <= band) | (s.distance <= 2.0F));
+  Ints valid = s.known & (s.distance >= -behind) & ((s.ahead <= band) | (s.distance <= 2.0F)) &
+               (s.trusted | (s.ahead > margin));
   if (f.carve) {
     Words weight;
     load(weight, &block.weight[at]);
