@@ -10,14 +10,8 @@ namespace {
 
 constexpr double kReach = 10;          // m: clicks beyond are at nothing
 constexpr double kFootRadius = 0.06;   // m: what an object stands on
+constexpr double kMiddleHeight = 0.06;  // m above an object's foot
 constexpr double kSelectRadius = 0.1;  // m: how close a click passes by an object that it means
-
-// Unit meshes stand about one unit wide; these are the sizes of the things themselves.
-double scale_of(const std::string& mesh) {
-  if (mesh == "table") return 0.4;
-  if (mesh == "cube") return 0.08;
-  return 0.2;
-}
 
 // Stands on the plane (z is its normal) and has the viewer in front (-y).
 Pose standing_pose(const Eigen::Vector3d& foot, const Eigen::Vector3d& up,
@@ -73,7 +67,7 @@ void Placement::select(const Ray& ray, const WorldView* world) {
   for (PlacedObject& object : objects_) {
     object.selected = false;
     const Pose pose = world_from_object(object, world);
-    const Eigen::Vector3d middle = pose * Eigen::Vector3d(0, 0, 0.3 * object.scale);
+    const Eigen::Vector3d middle = pose * Eigen::Vector3d(0, 0, kMiddleHeight);
     const Eigen::Vector3d offset = middle - ray.origin_in_world;
     if (offset.dot(direction) <= 0) continue;
     const double distance = offset.cross(direction).norm();

@@ -19,7 +19,6 @@ struct Click {
 struct PlacedObject {
   std::int64_t id = 0;
   std::string mesh;
-  double scale = 1;  // m, of the mesh's unit length
   Anchor anchor;
   bool selected = false;
 };

@@ -1,5 +1,5 @@
-// Reads one sensor of a rig frame by frame: as fast as the stages take them, or, live, when a recording's own
-// time says so.
+// Reads one sensor of a rig frame by frame: as fast as the stages take them, or, live, when a
+// recording's own time says so.
 #pragma once
 
 #include <atomic>

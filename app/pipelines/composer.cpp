@@ -56,7 +56,7 @@ ComposedPtr Composer::process(const ComposeInput& input) {
   auto scene = std::make_shared<render::Scene>();
   add_video(tracked, scene.get());
   add_tracking(tracked, scene.get());
-  if (input.map) add_map(*input.map, scene.get());
+  if (input.map) scene->surface = input.map->surface;
   add_objects(world, scene.get());
   add_messages(scene.get());
   measure_rate(tracked.frame->arrival);
@@ -112,7 +112,7 @@ void Composer::add_tracking(const TrackedFrame& tracked, render::Scene* scene) {
 void Composer::add_objects(const WorldView* world, render::Scene* scene) {
   for (const PlacedObject& object : placement_.objects()) {
     scene->objects.push_back({object.id, object.mesh, Placement::world_from_object(object, world),
-                              object.scale, object.selected});
+                              1.0, object.selected});
   }
 }
 

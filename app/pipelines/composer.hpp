@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "app/interaction/placement.hpp"
+#include "app/pipelines/map_state.hpp"
 #include "app/runtime/event_log.hpp"
 #include "app/runtime/stage.hpp"
 #include "render/scene.hpp"
 #include "vision/core/tracked_frame.hpp"
-#include "vision/mapping/mapper.hpp"
 
 namespace armsreach::app {
 
@@ -25,7 +25,7 @@ struct UserInput {
 
 struct ComposeInput {
   TrackedFramePtr tracked;
-  mapping::MapUpdatePtr map;  // null until something is mapped
+  MapStatePtr map;  // null until something is mapped
   std::vector<UserInput> user;
 };
 
@@ -47,7 +47,6 @@ class Composer final : public Stage<ComposeInput, ComposedPtr> {
  private:
   void add_video(const TrackedFrame& tracked, render::Scene* scene);
   void add_tracking(const TrackedFrame& tracked, render::Scene* scene);
-  void add_map(const mapping::MapUpdate& map, render::Scene* scene);
   void add_objects(const WorldView* world, render::Scene* scene);
   void add_messages(render::Scene* scene);
   Events apply(const std::vector<UserInput>& user, const WorldView* world,
@@ -58,8 +57,6 @@ class Composer final : public Stage<ComposeInput, ComposedPtr> {
   StageRows stage_rows_;
   Placement placement_;
   std::vector<Eigen::Vector3f> camera_trail_;
-  mapping::MapUpdatePtr shown_map_;
-  render::SurfacePtr surface_;
   std::int64_t last_arrival_ = 0;
   double frame_rate_ = 0;
 };

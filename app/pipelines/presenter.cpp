@@ -18,12 +18,13 @@ render::ContextKind kind_from_name(const std::string& name) {
   return render::ContextKind::automatic;
 }
 
-render::ViewKind view_from_name(const std::string& name) {
-  if (name == "map") return render::ViewKind::map;
-  if (name == "top") return render::ViewKind::top;
-  if (name == "front") return render::ViewKind::front;
-  if (name == "side") return render::ViewKind::side;
-  return render::ViewKind::live;
+UserInput user_input(const render::Requests& requests) {
+  UserInput user;
+  for (const render::ViewClick& click : requests.clicks) {
+    if (click.ray_in_world) user.clicks.push_back({*click.ray_in_world, click.insert});
+  }
+  user.delete_selected = requests.delete_selected;
+  return user;
 }
 
 }  // namespace
@@ -75,7 +76,7 @@ Result<UserInput> Presenter::present(const render::Scene& scene) {
   UserInput user;
   if (renderer_) {
     const render::InputState input = context_->poll_input();
-    user = user_input(renderer_->draw(scene, input), input);
+    user = user_input(renderer_->draw(scene, input));
     context_->swap();
   }
   const bool fresh = scene.frame != last_drawn_;
@@ -83,18 +84,6 @@ Result<UserInput> Presenter::present(const render::Scene& scene) {
   if (!fresh) return user;
   add_actions(scene, &user);
   if (auto status = keep_picture(scene); !status) return status.error();
-  return user;
-}
-
-UserInput Presenter::user_input(const std::vector<render::ViewClick>& clicks,
-                                const render::InputState& input) const {
-  UserInput user;
-  for (const render::ViewClick& click : clicks) {
-    if (click.ray_in_world) user.clicks.push_back({*click.ray_in_world, click.insert});
-  }
-  for (const render::KeyPress& press : input.keys) {
-    if (press.key == render::Key::del) user.delete_selected = true;
-  }
   return user;
 }
 
@@ -106,10 +95,7 @@ void Presenter::add_actions(const render::Scene& scene, UserInput* user) {
       if (renderer_) renderer_->set_layout(layout_from_name(action.layout));
       continue;
     }
-    const auto view = view_from_name(action.view);
-    const auto ray = view == render::ViewKind::live ? render::ray_through(scene, action.click)
-                     : renderer_                    ? renderer_->ray_through(view, action.click)
-                                                    : std::nullopt;
+    const auto ray = render::ray_through(scene, action.click);
     if (ray) user->clicks.push_back({*ray, action.insert});
   }
 }

@@ -49,8 +49,6 @@ class Presenter {
  private:
   explicit Presenter(const PresenterOptions& options) : options_(options) {}
   Status make_picture_keepers();
-  UserInput user_input(const std::vector<render::ViewClick>& clicks,
-                       const render::InputState& input) const;
   void add_actions(const render::Scene& scene, UserInput* user);
   Status keep_picture(const render::Scene& scene);
   Status save_screenshot(std::int64_t frame);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "app/pipelines/map_state.hpp"
 #include "app/runtime/stage.hpp"
 #include "app/session/config.hpp"
 #include "vision/alignment/tracker.hpp"
@@ -15,7 +16,7 @@ namespace armsreach::app {
 
 struct TrackInput {
   FramePtr frame;
-  mapping::MapUpdatePtr map;  // null until something is mapped
+  MapStatePtr map;  // null until something is mapped
 };
 
 class TrackingStage final : public Stage<TrackInput, TrackedFramePtr> {
@@ -25,19 +26,21 @@ class TrackingStage final : public Stage<TrackInput, TrackedFramePtr> {
   TrackedFramePtr process(const TrackInput& input) override;
 
  private:
-  alignment::Tracker tracker_;
+  Tracker tracker_;
 };
 
-class MappingStage final : public Stage<TrackedFramePtr, mapping::MapUpdatePtr> {
+class MappingStage final : public Stage<TrackedFramePtr, MapStatePtr> {
  public:
   explicit MappingStage(const MappingConfig& config);
   std::string name() const override { return "mapping"; }
-  mapping::MapUpdatePtr process(const TrackedFramePtr& tracked) override;
+  MapStatePtr process(const TrackedFramePtr& tracked) override;
 
   Status save(const std::string& path) const;  // as OctoMap .ot, after the run
 
  private:
   mapping::Mapper mapper_;
+  SurfaceCollector surface_;
+  MapStatePtr state_;  // the last one published
 };
 
 }  // namespace armsreach::app

@@ -19,7 +19,7 @@ namespace armsreach::app {
 namespace {
 
 using TrackingNode = StageNode<TrackInput, TrackedFramePtr>;
-using MappingNode = StageNode<TrackedFramePtr, mapping::MapUpdatePtr>;
+using MappingNode = StageNode<TrackedFramePtr, MapStatePtr>;
 using ComposingNode = StageNode<ComposeInput, ComposedPtr>;
 
 constexpr size_t kJournalLength = 64;  // tracked frames waiting to be written down
@@ -62,8 +62,8 @@ class Workspace {
   std::shared_ptr<Connection<TrackedFramePtr>> to_compose_ = wiring_.driving<TrackedFramePtr>();
   std::shared_ptr<Connection<TrackedFramePtr>> to_journal_;
   std::shared_ptr<Connection<ComposedPtr>> scenes_ = wiring_.driving<ComposedPtr>();
-  Following<mapping::MapUpdatePtr> map_for_tracking_{wiring_, config_.lag};
-  Following<mapping::MapUpdatePtr> map_for_composing_{wiring_, config_.lag};
+  Following<MapStatePtr> map_for_tracking_{wiring_, config_.lag};
+  Following<MapStatePtr> map_for_composing_{wiring_, config_.lag};
   FollowingEvents<UserInput> user_{wiring_, kUserLag};
 
   CaptureNode capture_;

@@ -6,10 +6,10 @@
 #include <optional>
 #include <string>
 
-#include "app/session/config.hpp"
 #include "app/pipelines/presenter.hpp"
 #include "app/runtime/event_log.hpp"
 #include "app/runtime/wiring.hpp"
+#include "app/session/config.hpp"
 #include "devices/rig.hpp"
 #include "vision/core/result.hpp"
 
@@ -22,7 +22,7 @@ struct WorkspaceOptions {
   std::string trajectory;  // files to write, or ""
   std::string stats;
   std::string map;
-  bool progress = false;   // a line on the terminal once a second
+  bool progress = false;  // a line on the terminal once a second
 };
 
 // What a run came to, also written as JSON with `stats`.
