@@ -35,7 +35,7 @@ std::shared_ptr<const MapView> Mapper::take_view() {
 
 std::vector<SurfaceBlockPtr> Mapper::take_surface() {
   std::vector<SurfaceBlockPtr> surface;
-  for (const BlockKey& key : with_dependants(map_.take_changed())) {
+  for (const BlockKey& key : changed_surface(map_.grid(), map_.take_changed())) {
     surface.push_back(
         std::make_shared<SurfaceBlock>(SurfaceBlock{key, surface_points(map_.grid(), key)}));
   }

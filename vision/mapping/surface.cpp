@@ -101,12 +101,12 @@ std::vector<SurfacePoint> surface_points(const VoxelGrid& grid, const BlockKey& 
   return points;
 }
 
-std::vector<BlockKey> with_dependants(const std::vector<BlockKey>& changed) {
-  std::vector<BlockKey> keys;
-  keys.reserve(8 * changed.size());
+std::vector<BlockKey> changed_surface(const VoxelGrid& grid, const std::vector<BlockKey>& changed) {
+  std::vector<BlockKey> keys = changed;
   for (const BlockKey& key : changed) {
-    for (int i = 0; i < 8; ++i) {
-      keys.push_back({key.x - (i & 1), key.y - (i >> 1 & 1), key.z - (i >> 2)});
+    for (int i = 1; i < 8; ++i) {
+      const BlockKey before{key.x - (i & 1), key.y - (i >> 1 & 1), key.z - (i >> 2)};
+      if (grid.blocks.find(before)) keys.push_back(before);
     }
   }
   std::sort(keys.begin(), keys.end());

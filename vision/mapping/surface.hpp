@@ -28,7 +28,8 @@ using SurfaceBlockPtr = std::shared_ptr<const SurfaceBlock>;
 // Points of the cells whose first voxel lies in the block; empty where nothing is mapped.
 std::vector<SurfacePoint> surface_points(const VoxelGrid& grid, const BlockKey& key);
 
-// The blocks whose surface depends on a changed block: it and those before it along each axis.
-std::vector<BlockKey> with_dependants(const std::vector<BlockKey>& changed);
+// The blocks whose points may have changed with these voxels: they and those before them along each
+// axis; sorted. Blocks that do not exist are named only where they were among the changed: dropped.
+std::vector<BlockKey> changed_surface(const VoxelGrid& grid, const std::vector<BlockKey>& changed);
 
 }  // namespace armsreach::mapping

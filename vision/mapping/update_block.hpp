@@ -26,8 +26,6 @@ struct FrameEvidence {
   float noise = 0;  // sigma = noise * depth^2, in voxel edges
 
   const std::int16_t* hits = nullptr;  // HitTable
-  int hit_rows = 0;
-  float hit_rows_per_edge = 0;
 
   std::int16_t free = 0;  // log-odds of what lies in front, and the clamps of their sum
   std::int16_t lowest = 0;

@@ -28,8 +28,9 @@ struct Surface {
   Floats distance;  // from the voxel to its pixel's plane, positive in front
   Floats ahead;     // the same along z, on the voxel's ray: d - v_d
   Floats depth;     // d
-  Floats sigma;
-  Floats along;  // the voxel's component along the plane's normal
+  Floats sigma;     // of d
+  Floats along;     // the voxel's component along the plane's normal
+  Floats per_edge;  // cosine of the slant: an edge across the surface by its extent along z
   Ints known;
   Ints trusted;
 };
@@ -101,23 +102,24 @@ inline void meet_surface(Surface& s, const Cube& cube, const FrameEvidence& f) {
   s.known = s.along > 0.0F;
   s.trusted = plane[3] > 0.0F;
   s.distance = (s.trusted ? plane[3] : -plane[3]) - s.along;
-  s.ahead = cube.z * s.distance / s.along;
+  s.per_edge = s.along / cube.z;
+  s.ahead = s.distance / s.per_edge;
   s.depth = cube.z + s.ahead;
   s.sigma = f.noise * s.depth * s.depth;
 }
 
-// Occupancy: Damen et al. eq. 5, see sensor_model.hpp.
+// Occupancy: Damen et al. eq. 5, see sensor_model.hpp. `margin` is measured across the surface.
 inline void add_log_odds(Block& block, int at, const Surface& s, const Floats& margin,
                          const Ints& banded, const FrameEvidence& f) {
-  const Floats magnitude = s.ahead < 0.0F ? -s.ahead : s.ahead;
+  const Floats magnitude = s.distance < 0.0F ? -s.distance : s.distance;
   const Ints hit = banded & (magnitude <= margin);
-  const Ints in_front = banded & (s.ahead > margin);
+  const Ints in_front = banded & (s.distance > margin);
   Ints change = in_front & (Ints{} + f.free);
   if (any(hit)) {
     Floats column = magnitude / margin * 64.0F;
     least(column, Floats{} + 63.0F);
-    Floats line = s.depth * f.hit_rows_per_edge;
-    least(line, Floats{} + static_cast<float>(f.hit_rows - 1));
+    Floats line = 16.0F / (s.sigma * s.per_edge);
+    least(line, Floats{} + 127.0F);
     Ints entry = __builtin_convertvector(line, Ints) * 64 + __builtin_convertvector(column, Ints);
     entry &= hit;
     for (int i = 0; i < kLanes; ++i) entry[i] = f.hits[entry[i]];
@@ -221,15 +223,16 @@ inline bool update_cube(Block& block, int at, const float (&start)[3], const Fra
   Surface s;
   meet_surface(s, cube, f);
   const Floats band = 3.0F + 3.0F * s.sigma;
-  Floats margin = 3.0F * s.sigma;
-  most(margin, Floats{} + 0.5F);
+  // A little over half a voxel: of a surface midway between voxels neither may round away.
+  Floats margin = 3.0F * s.sigma * s.per_edge;
+  most(margin, Floats{} + 0.501F);
   // Behind the margin nothing is said about occupancy: the rest of the band is left alone.
-  Ints banded = s.known & (s.ahead <= band) & (s.ahead >= (s.trusted ? -margin : margin));
+  Ints banded = s.known & (s.ahead <= band) & (s.distance >= (s.trusted ? -margin : margin));
   // Interpolation needs all eight voxels around the surface: two edges behind it, however slanted.
   Floats behind = 2.0F * s.sigma;
   most(behind, Floats{} + 2.0F);
   Ints valid = s.known & (s.distance >= -behind) & ((s.ahead <= band) | (s.distance <= 2.0F)) &
-               (s.trusted | (s.ahead > margin));
+               (s.trusted | (s.distance > margin));
   if (f.carve) {
     Words weight;
     load(weight, &block.weight[at]);

@@ -41,8 +41,6 @@ FrameEvidence frame_evidence(const VoxelMapOptions& options, const HitTable& hit
   frame.voxel = static_cast<float>(options.resolution);
   frame.noise = static_cast<float>(options.sensor.noise * options.resolution);
   frame.hits = hits.data();
-  frame.hit_rows = hits.rows();
-  frame.hit_rows_per_edge = static_cast<float>(hits.rows_per_metre() * options.resolution);
   frame.free = fixed_log_odds(options.sensor.free);
   frame.lowest = fixed_log_odds(options.least_certain);
   frame.highest = fixed_log_odds(options.most_certain);
@@ -82,8 +80,7 @@ bool look(const DepthBand& band, const Eigen::Vector3f& first, const FrameEviden
 
 }  // namespace
 
-VoxelMap::VoxelMap(const VoxelMapOptions& options)
-    : options_(options), hits_(options.sensor, options.resolution, options.max_range) {
+VoxelMap::VoxelMap(const VoxelMapOptions& options) : options_(options), hits_(options.sensor) {
   CV_Assert(options.resolution > 0 && options.max_range > 0 && options.sensor.noise > 0);
   grid_.resolution = options.resolution;
   grid_.occupied_above = fixed_log_odds(options.occupied_above);
