@@ -85,10 +85,12 @@ ContactShadow bake_contact_shadow(const Mesh& mesh) {
              in_texels(mesh.indices[i + 2]));
 
   const double texels = 0.5 * static_cast<double>(texels_per_metre.x() + texels_per_metre.y());
-  const cv::Mat wide = blurred_weight(height, reach, static_cast<double>(blur) * texels);
-  const cv::Mat contact =
-      blurred_weight(height, 0.08F * size.z(), 0.2 * static_cast<double>(blur) * texels);
-  const cv::Mat lit = (1 - 0.5 * wide).mul(1 - 0.6 * contact);
+  const double wide_blur = static_cast<double>(blur) * texels;
+  // What hangs high still takes the light from above; what nearly touches takes all.
+  const cv::Mat overhead = blurred_weight(height, 3 * size.z(), wide_blur);
+  const cv::Mat near = blurred_weight(height, reach, 0.6 * wide_blur);
+  const cv::Mat contact = blurred_weight(height, 0.06F * size.z(), 0.15 * wide_blur);
+  const cv::Mat lit = (1 - 0.36 * overhead).mul(1 - 0.3 * near).mul(1 - 0.5 * contact);
   ContactShadow shadow;
   const cv::Mat darkness = 1 - lit;
   darkness.convertTo(shadow.darkness, CV_8U, 255);

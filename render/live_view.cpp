@@ -133,9 +133,8 @@ void LiveView::draw_inliers(const Scene& scene, const View& view) {
           view);
 }
 
-std::optional<SceneDepth> LiveView::upload_depth(const Scene& scene, const View& view) {
+std::optional<SceneDepth> LiveView::scene_depth(const Scene& scene, const View& view) const {
   if (scene.depth.empty()) return std::nullopt;
-  upload(*gl_, depth_, scene.depth);
   // texel = (pixel + 1/2) ratio - 1/2, pixel = (target - offset) / scale.
   const Eigen::Vector2d ratio(static_cast<double>(scene.depth.cols) / view.camera.width,
                               static_cast<double>(scene.depth.rows) / view.camera.height);
@@ -147,36 +146,47 @@ std::optional<SceneDepth> LiveView::upload_depth(const Scene& scene, const View&
   return SceneDepth{&depth_, texel_from_target.cast<float>()};
 }
 
+Status LiveView::fit_layer(int width, int height) {
+  // A whole small buffer is cleared and resolved faster than a part of a large one.
+  const auto fits = [](int have, int need) { return have >= need && have < 2 * need + 128; };
+  if (fits(layer_.width(), width) && fits(layer_.height(), height)) return ok();
+  const auto rounded = [](int size) { return (size + 63) / 64 * 64; };
+  auto layer = Framebuffer::make(*gl_, {.width = rounded(width),
+                                        .height = rounded(height),
+                                        .samples = options_.samples,
+                                        .depth = true});
+  if (!layer) return layer.error();
+  layer_ = *std::move(layer);
+  return ok();
+}
+
 Status LiveView::draw_objects(const Scene& scene, const View& view, ObjectPainter& objects,
                               const Framebuffer& target) {
   if (scene.objects.empty()) return ok();
+  if (!scene.depth.empty()) upload(*gl_, depth_, scene.depth);
+  objects.draw_shadows(view, scene.objects, scene_depth(scene, view));
+
   const Rectangle part = objects.bounds(view, scene.objects);
   if (part.width == 0 || part.height == 0) return ok();
-  if (layer_.width() != target.width() || layer_.height() != target.height()) {
-    auto layer = Framebuffer::make(*gl_, {.width = target.width(),
-                                          .height = target.height(),
-                                          .samples = options_.samples,
-                                          .depth = true});
-    if (!layer) return layer.error();
-    layer_ = *std::move(layer);
-  }
-  // Only the part with objects is cleared, drawn, resolved and laid over the video.
+  if (const Status fitted = fit_layer(part.width, part.height); !fitted) return fitted;
+  View part_view = view;
+  part_view.target_offset -= Eigen::Vector2d(part.x, part.y);
+  part_view.target_width = layer_.width();
+  part_view.target_height = layer_.height();
   layer_.bind();
-  gl_->Enable(GL_SCISSOR_TEST);
-  gl_->Scissor(part.x, part.y, part.width, part.height);
   gl_->ClearColor(0, 0, 0, 0);
   gl_->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
-  objects.draw(view, scene.objects, upload_depth(scene, view));
-  gl_->Disable(GL_SCISSOR_TEST);
-  layer_.resolve(part.x, part.y, part.width, part.height);
+  objects.draw_objects(part_view, scene.objects, scene_depth(scene, part_view));
+  layer_.resolve();
 
   target.bind();
   picture_.use();
-  const Eigen::Array4d rectangle(part.x, part.y, part.width, part.height);
-  const Eigen::Array4d size(view.target_width, view.target_height, view.target_width,
-                            view.target_height);
-  compose(picture_, layer_.color(), rectangle.cast<float>(), (rectangle / size).cast<float>(),
-          view);
+  const Eigen::Vector2f shown(
+      static_cast<float>(part.width) / static_cast<float>(layer_.width()),
+      static_cast<float>(part.height) / static_cast<float>(layer_.height()));
+  compose(picture_, layer_.color(),
+          Eigen::Array4d(part.x, part.y, part.width, part.height).cast<float>(),
+          {0, 0, shown.x(), shown.y()}, view);
   return ok();
 }
 

@@ -36,7 +36,8 @@ class LiveView {
   void draw_inliers(const Scene& scene, const View& view);
   Status draw_objects(const Scene& scene, const View& view, ObjectPainter& objects,
                       const Framebuffer& target);
-  std::optional<SceneDepth> upload_depth(const Scene& scene, const View& view);
+  Status fit_layer(int width, int height);
+  std::optional<SceneDepth> scene_depth(const Scene& scene, const View& view) const;
   void compose(const Program& program, const Texture& texture, const Eigen::Vector4f& rectangle,
                const Eigen::Vector4f& part, const View& view) const;
 
@@ -46,7 +47,7 @@ class LiveView {
   Program inliers_program_;
   VertexArray no_attributes_;
   FeaturePainter features_;
-  Framebuffer layer_;  // virtual objects, multisampled, transparent where there are none
+  Framebuffer layer_;  // the part with objects, multisampled, transparent around them
   Texture depth_;
   Texture inliers_;
 };

@@ -219,8 +219,9 @@ Status MapView::draw_picture(Picture& picture, const Scene& scene, ObjectPainter
   Lines ground;
   if (picture.kind == ViewKind::map) add_ground(ground, framing_.box(), *room_);
   lines.draw(picture.view, ground, 1.2F);
+  objects.draw_shadows(picture.view, scene.objects, std::nullopt);
   gl_->Disable(GL_DEPTH_TEST);
-  objects.draw(picture.view, scene.objects, std::nullopt);
+  objects.draw_objects(picture.view, scene.objects, std::nullopt);
   Lines over;  // always in sight
   add_trails(over, scene);
   if (scene.pose_known)

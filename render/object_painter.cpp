@@ -50,7 +50,7 @@ Result<ObjectPainter> ObjectPainter::make(const Gl& gl) {
       {"shaders/occlusion.glsl", "shaders/mesh.frag.glsl"});
   if (!lit) return lit.error();
   auto outline = Program::from_assets(
-      gl, {"shaders/target.glsl", "shaders/view.glsl", "shaders/mesh.vert.glsl"},
+      gl, {"shaders/target.glsl", "shaders/view.glsl", "shaders/outline.vert.glsl"},
       {"shaders/occlusion.glsl", "shaders/outline.frag.glsl"});
   if (!outline) return outline.error();
   auto shadow = Program::from_assets(
@@ -83,10 +83,6 @@ const ObjectPainter::Model& ObjectPainter::model(const std::string& name) {
     model.low = model.low.cwiseMin(vertex.position);
     model.high = model.high.cwiseMax(vertex.position);
   }
-  // The shadow is wider than the mesh.
-  model.low.head<2>() = model.low.head<2>().cwiseMin(model.footprint.head<2>());
-  model.high.head<2>() =
-      model.high.head<2>().cwiseMax(model.footprint.head<2>() + model.footprint.tail<2>());
   return models_.emplace(name, std::move(model)).first->second;
 }
 
@@ -101,21 +97,22 @@ void ObjectPainter::prepare(const Program& program, const View& view,
   program.set("scene_depth_from_target", depth->texel_from_target);
 }
 
-void ObjectPainter::draw(const View& view, const std::vector<VirtualObject>& objects,
-                         const std::optional<SceneDepth>& depth) {
-  if (objects.empty()) return;
+void ObjectPainter::draw_objects(const View& view, const std::vector<VirtualObject>& objects,
+                                 const std::optional<SceneDepth>& depth) {
   gl_->FrontFace(GL_CW);  // pictures are stored top row first, which mirrors triangles
   gl_->Enable(GL_DEPTH_TEST);
-  draw_shadows(view, objects, depth);
   gl_->Enable(GL_STENCIL_TEST);
+  gl_->Enable(GL_CULL_FACE);
   draw_meshes(view, objects, depth);
   draw_outlines(view, objects, depth);
+  gl_->Disable(GL_CULL_FACE);
   gl_->Disable(GL_STENCIL_TEST);
   gl_->Disable(GL_DEPTH_TEST);
 }
 
 void ObjectPainter::draw_shadows(const View& view, const std::vector<VirtualObject>& objects,
                                  const std::optional<SceneDepth>& depth) {
+  for (const VirtualObject& object : objects) model(object.mesh);  // binds textures when new
   prepare(shadow_, view, depth);
   no_attributes_.bind();
   gl_->Enable(GL_BLEND);
@@ -137,16 +134,13 @@ void ObjectPainter::draw_shadows(const View& view, const std::vector<VirtualObje
 void ObjectPainter::draw_meshes(const View& view, const std::vector<VirtualObject>& objects,
                                 const std::optional<SceneDepth>& depth) {
   prepare(lit_, view, depth);
-  lit_.set("grow", 0.F);
-  lit_.set("gloss", 1.F);
-  lit_.set("towards_viewer", view.orthographic ? Vector3f(0, 0, -1) : Vector3f::Zero().eval());
   gl_->StencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
   for (const VirtualObject& object : objects) {
     const Matrix4f matrix = camera_from_object(view, object);
     const Eigen::Matrix3f turn = matrix.block<3, 3>(0, 0) / static_cast<float>(object.scale);
     lit_.set("camera_from_object", matrix);
     lit_.set("up_in_camera", (turn * Vector3f::UnitZ()).eval());
-    lit_.set("key_in_camera", (turn * Vector3f(0.45F, -0.55F, 0.70F).normalized()).eval());
+    lit_.set("key_in_camera", (turn * Vector3f(0.62F, -0.52F, 0.59F).normalized()).eval());
     lit_.set("fill_in_camera", (turn * Vector3f(-0.75F, 0.35F, 0.45F).normalized()).eval());
     // Only what is selected leaves a mark for its outline to stay out of.
     gl_->StencilFunc(GL_ALWAYS, object.selected ? 1 : 0, 0xFF);

@@ -27,11 +27,15 @@ class ObjectPainter {
  public:
   static Result<ObjectPainter> make(const Gl& gl);
 
-  // Into the bound framebuffer, which has depth and stencil. Without `depth` nothing hides.
-  void draw(const View& view, const std::vector<VirtualObject>& objects,
-            const std::optional<SceneDepth>& depth);
+  // Into the bound framebuffer. Without `depth` nothing hides.
+  void draw_shadows(const View& view, const std::vector<VirtualObject>& objects,
+                    const std::optional<SceneDepth>& depth);
+  // Into the bound framebuffer, which has depth and stencil.
+  void draw_objects(const View& view, const std::vector<VirtualObject>& objects,
+                    const std::optional<SceneDepth>& depth);
 
-  // The part of the target that `draw` touches, within its borders; empty when nothing shows.
+  // The part of the target that `draw_objects` touches, within its borders; empty when nothing
+  // shows.
   Rectangle bounds(const View& view, const std::vector<VirtualObject>& objects);
 
  private:
@@ -47,8 +51,6 @@ class ObjectPainter {
   const Model& model(const std::string& mesh);
   void prepare(const Program& program, const View& view,
                const std::optional<SceneDepth>& depth) const;
-  void draw_shadows(const View& view, const std::vector<VirtualObject>& objects,
-                    const std::optional<SceneDepth>& depth);
   void draw_meshes(const View& view, const std::vector<VirtualObject>& objects,
                    const std::optional<SceneDepth>& depth);
   void draw_outlines(const View& view, const std::vector<VirtualObject>& objects,

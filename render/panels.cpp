@@ -57,14 +57,6 @@ void heading(const Fonts& fonts, const char* text) {
   ImGui::PopFont();
 }
 
-void dot(const theme::Color& color) {
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  ImGui::GetWindowDrawList()->AddCircleFilled({at.x + 4, at.y + ImGui::GetTextLineHeight() / 2}, 4,
-                                              imgui_color(color), 16);
-  ImGui::Dummy({10, ImGui::GetTextLineHeight()});
-  ImGui::SameLine(0, 4);
-}
-
 // A button that stays lit while `on`.
 bool lit_button(const char* label, bool on, const ImVec2& size) {
   if (on) {
@@ -137,18 +129,6 @@ void draw_stages(const Fonts& fonts, const Scene& scene) {
   ImGui::EndTable();
 }
 
-void draw_messages(const Fonts& fonts, const Scene& scene) {
-  if (scene.messages.empty()) return;
-  heading(fonts, "Messages");
-  for (auto message = scene.messages.rbegin(); message != scene.messages.rend(); ++message) {
-    if (ImGui::GetContentRegionAvail().y < ImGui::GetTextLineHeight()) break;
-    dot(severity_color(message->severity));
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(message->text.c_str());
-    ImGui::PopTextWrapPos();
-  }
-}
-
 }  // namespace
 
 theme::Color state_color(const std::string& state) {
@@ -164,14 +144,20 @@ void draw_wearer_overlay(const Fonts& fonts, const Scene& scene, const Rectangle
   const ImVec2 corner = corner_of(picture);
   draw_pill(list, *fonts.text, {corner.x + margin, corner.y + margin}, state_or_idle(scene),
             &state);
-  // Toasts: the newest three, the newest lowest.
-  float bottom = corner.y + static_cast<float>(picture.height) - margin;
+  draw_messages(list, fonts, scene, picture);
+}
+
+void draw_messages(ImDrawList& list, const Fonts& fonts, const Scene& scene,
+                   const Rectangle& view) {
+  const float margin = 12;
+  const float left = static_cast<float>(view.x) + margin;
+  float bottom = static_cast<float>(view.y + view.height) - margin;
   int shown = 0;
   for (auto message = scene.messages.rbegin(); message != scene.messages.rend() && shown < 3;
        ++message, ++shown) {
     const theme::Color color = severity_color(message->severity);
     bottom -= pill_size(*fonts.text, message->text, true).y;
-    draw_pill(list, *fonts.text, {corner.x + margin, bottom}, message->text, &color);
+    draw_pill(list, *fonts.text, {left, bottom}, message->text, &color);
     bottom -= 6;
   }
 }
@@ -216,11 +202,7 @@ Presses draw_side_panel(const Fonts& fonts, const Scene& scene, const Rectangle&
   if (begin_panel("side", place)) {
     draw_palette(fonts, scene, choices, presses);
     ImGui::Dummy({0, 4});
-    if (!scene.stages.empty()) {
-      draw_stages(fonts, scene);
-      ImGui::Dummy({0, 4});
-    }
-    draw_messages(fonts, scene);
+    if (!scene.stages.empty()) draw_stages(fonts, scene);
   }
   ImGui::End();
   return presses;

@@ -25,9 +25,12 @@ struct Presses {
 // Wearer: a state pill and the newest messages over the video, nothing else.
 void draw_wearer_overlay(const Fonts& fonts, const Scene& scene, const Rectangle& picture);
 
+// The newest three messages at the lower left of a view, the newest lowest.
+void draw_messages(ImDrawList& list, const Fonts& fonts, const Scene& scene, const Rectangle& view);
+
 // Operator: the bar above the views with the state and the main figures,
 void draw_header(const Fonts& fonts, const Scene& scene, const Rectangle& place);
-// and the panel with palette, stages and messages.
+// and the panel with palette and stages.
 Presses draw_side_panel(const Fonts& fonts, const Scene& scene, const Rectangle& place,
                         Choices& choices);
 

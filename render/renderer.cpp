@@ -150,6 +150,7 @@ class SceneRenderer final : public Renderer {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     draw_header(ui_->fonts(), scene, desk.header);
     map_.draw_pictures(list, ui_->fonts(), desk);
+    draw_messages(list, ui_->fonts(), scene, desk.map);
     draw_framed(list, live_picture_.color(), desk.live);
     draw_annotations(list, ui_->fonts(), scene,
                      live_view_of(scene, desk.live.width, desk.live.height),

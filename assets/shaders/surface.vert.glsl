@@ -17,5 +17,5 @@ void main() {
   // Warm light from one side, cool from everywhere, on what the camera saw.
   float towards = dot(normalize(mat3(view_camera_from_world) * normal), light_in_camera);
   vec3 light = mix(vec3(0.50, 0.55, 0.64), vec3(1.06, 1.03, 0.98), 0.5 + 0.5 * towards);
-  shade = light * mix(0.06, 1.0, intensity);
+  shade = light * mix(0.10, 1.0, pow(intensity, 0.8));
 }
