@@ -24,7 +24,7 @@ cv::Mat paint_plain(const Material& material, Random& random) {
 // Boards along x, each with its own tone, long streaks of grain and some darker year rings.
 cv::Mat paint_wood(const Material& material, Random& random) {
   constexpr int kBoards = 8;
-  const int side = kLargeSide;
+  const int side = material.size < 1 ? kSide : kLargeSide;
   cv::Mat image = canvas(side, side, material.colors[0]);
   const cv::Mat streaks = noise(side, side, 6, side / 6, random);
   const cv::Mat fibres = noise(side, side, 24, side / 2, random);
@@ -126,7 +126,7 @@ cv::Mat paint_tiles(const Material& material, Random& random) {
 
 cv::Mat paint_plaster(const Material& material, Random& random) {
   cv::Mat image = canvas(kSide, kSide, material.colors[0]);
-  shade(image, clouds(kSide, kSide, 4, 7, 0.85, random), 0.035);
+  shade(image, clouds(kSide, kSide, 10, 5, 1.15, random), 0.03);
   return to_8_bit(image);
 }
 
