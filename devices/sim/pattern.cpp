@@ -163,7 +163,10 @@ cv::Mat paint_glaze(const Material& material, Random& random) {
   cv::Mat specked = to_8_bit(image);
   for (int i = 0; i < 420; ++i) {
     const cv::Point at(random.below(kSide), random.below(kSide));
-    cv::circle(specked, at, 1 + random.below(3), bgr(material.colors[2]), cv::FILLED, cv::LINE_AA);
+    // Higher than wide: around a mug or vase the pattern is stretched.
+    const int radius = 1 + random.below(2);
+    cv::ellipse(specked, at, {radius, 2 * radius + 1}, 0, 0, 360, bgr(material.colors[2]),
+                cv::FILLED, cv::LINE_AA);
   }
   specked.convertTo(image, CV_32FC3);
   shade(image, clouds(kSide, kSide, 4, 4, 0.6, random), 0.03);
