@@ -35,7 +35,7 @@ const std::vector<std::string>& mesh_names();
 Mesh named_mesh(const std::string& name);
 
 // The Utah teapot from Newell's bicubic patches, `height` metres to the top of its knob, each patch
-// cut into divisions^2 quadrilaterals (8: 4032 triangles).
+// cut into divisions^2 quadrilaterals (8: 4076 triangles).
 Mesh make_teapot(float height, int divisions = 8);
 // An axis-aligned box with its lower face's centre at `foot`.
 Mesh make_box(const Eigen::Vector3f& foot, const Eigen::Vector3f& size,

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
 #include <string_view>
 #include <vector>
 
@@ -105,13 +108,30 @@ void add_patch(Mesh& mesh, const Patch& patch, int divisions, float scale) {
   }
 }
 
+// Lids the openings (under the lid's edge, in the spout) from inside, in Newell's units: a dark
+// disc facing up. Without them one would see through the pot, whose inner faces are not drawn.
+void add_stopper(Mesh& mesh, const Vector3f& centre, float radius_x, float radius_y, float scale) {
+  const std::array<std::uint8_t, 4> dark{132, 110, 94, 255};
+  const int corners = 24;
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (int i = 0; i < corners; ++i) {
+    const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / corners;
+    const Vector3f corner(radius_x * std::cos(angle), radius_y * std::sin(angle), 0);
+    mesh.vertices.push_back({scale * (centre + corner), Vector3f::UnitZ(), dark});
+  }
+  for (std::uint32_t i = 1; i + 1 < corners; ++i)
+    mesh.append_triangle(first, first + i, first + i + 1);
+}
+
 }  // namespace
 
 Mesh make_teapot(float height, int divisions) {
+  const float scale = height / kNewellHeight;
   Mesh teapot;
-  for (const Patch& patch : newell_patches())
-    add_patch(teapot, patch, divisions, height / kNewellHeight);
-  for (Vertex& vertex : teapot.vertices) vertex.color = {232, 196, 160, 255};
+  for (const Patch& patch : newell_patches()) add_patch(teapot, patch, divisions, scale);
+  for (Vertex& vertex : teapot.vertices) vertex.color = {240, 222, 200, 255};
+  add_stopper(teapot, {0, 0, 2.38F}, 1.41F, 1.41F, scale);
+  add_stopper(teapot, {3.0F, 0, 2.37F}, 0.2F, 0.12F, scale);
   return teapot;
 }
 
