@@ -1,3 +1,4 @@
+// Depth alone, as a light sees it.
 in float depth;
 out float depth_out;
 

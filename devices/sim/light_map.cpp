@@ -15,10 +15,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kKeyDirections = 40;
-constexpr int kRoomDirections = 120;
-constexpr int kMapSide = 768;      // px, of the depths seen from a light
-constexpr float kOffset = 0.004F;  // m, a pixel or two of those
+constexpr int kKeyDirections = 24;
+constexpr int kRoomDirections = 72;
+constexpr int kMapSide = 512;      // px, of the depths seen from a light
+constexpr float kOffset = 0.005F;  // m, off the surface, so that it does not shade itself
 constexpr double kGoldenAngle = 2.39996322972865332;
 
 struct FarLight {
@@ -87,129 +87,100 @@ render::View view_from(const Vector3d& towards_light, const Ball& ball) {
   return view;
 }
 
-constexpr render::TextureFormat kFloats4{GL_RGBA32F, GL_RGBA, GL_FLOAT};
-constexpr render::TextureFormat kFloats1{GL_R32F, GL_RED, GL_FLOAT};
-
-// The passes that gather light, with what they draw into.
-class Gatherer {
+// Draws depths as seen from a light.
+class ShadowCamera {
  public:
-  static Result<Gatherer> make(const render::Gl& gl, const WorldMesh& mesh) {
-    Gatherer made;
-    made.gl_ = &gl;
-    auto depth =
+  static Result<ShadowCamera> make(const render::Gl& gl) {
+    auto program =
         render::Program::from_assets(gl, {"shaders/view.glsl", "shaders/sim_surface.vertex.glsl"},
                                      {"shaders/sim_depth.fragment.glsl"});
-    if (!depth) return depth.error();
-    auto gather =
-        render::Program::from_assets(gl, {"shaders/sim_gather.vertex.glsl"},
-                                     {"shaders/view.glsl", "shaders/sim_gather.fragment.glsl"});
-    if (!gather) return gather.error();
-    auto depths = render::Framebuffer::make(gl, {kMapSide, kMapSide, 0, {kFloats1}, true});
-    if (!depths) return depths.error();
-    auto sum =
-        render::Framebuffer::make(gl, {mesh.atlas_width, mesh.atlas_height, 0, {kFloats4}, false});
-    if (!sum) return sum.error();
-    made.depth_ = std::move(*depth);
-    made.gather_ = std::move(*gather);
-    made.depths_ = std::move(*depths);
-    made.sum_ = std::move(*sum);
-    made.upload_texels(mesh);
-    made.sum_.bind();
-    gl.ClearColor(0, 0, 0, 0);
-    gl.Clear(GL_COLOR_BUFFER_BIT);
+    if (!program) return program.error();
+    constexpr render::TextureFormat kFloats{GL_R32F, GL_RED, GL_FLOAT};
+    auto target = render::Framebuffer::make(gl, {kMapSide, kMapSide, 0, {kFloats}, true});
+    if (!target) return target.error();
+    ShadowCamera made;
+    made.gl_ = &gl;
+    made.program_ = std::move(*program);
+    made.target_ = std::move(*target);
+    made.depths_.create(kMapSide, kMapSide, CV_32F);
     return made;
   }
 
-  void draw_depths(const render::View& view, const World& world, const GpuWorld& gpu_world) const {
-    depths_.bind();
+  // CV_32F m along the light's way; far where nothing is.
+  const cv::Mat& draw(const render::View& view, const World& world, const GpuWorld& gpu_world) {
+    target_.bind();
     gl_->ClearColor(1e6F, 0, 0, 0);
     gl_->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     gl_->Enable(GL_DEPTH_TEST);
     gl_->Disable(GL_BLEND);
     gl_->Disable(GL_CULL_FACE);
-    depth_.use();
-    render::set_view(depth_, view);
+    program_.use();
+    render::set_view(program_, view);
     gpu_world.bind();
     for (std::size_t i = 0; i < world.things.size(); ++i) {
       if (!casts_shadow(world.things[i])) continue;
-      depth_.set("world_from_thing",
-                 Eigen::Matrix4f(world.things[i].world_from_thing.matrix().cast<float>()));
+      program_.set("world_from_thing",
+                   Eigen::Matrix4f(world.things[i].world_from_thing.matrix().cast<float>()));
       gpu_world.draw(i);
     }
-  }
-
-  void add(const FarLight& light, const render::View& view) const {
-    sum_.bind();
-    gl_->Disable(GL_DEPTH_TEST);
-    gl_->Enable(GL_BLEND);
-    gl_->BlendFunc(GL_ONE, GL_ONE);
-    gather_.use();
-    render::set_view(gather_, view);
-    gather_.set("positions", 0);
-    gather_.set("normals", 1);
-    gather_.set("nearest", 2);
-    gather_.set("towards_light", Eigen::Vector3f(light.towards.cast<float>()));
-    gather_.set("radiance", Eigen::Vector3f(light.radiance.cast<float>()));
-    gather_.set("offset", kOffset);
-    positions_.bind(0);
-    normals_.bind(1);
-    depths_.color().bind(2);
-    gl_->DrawArrays(GL_TRIANGLES, 0, 3);
-    gl_->Disable(GL_BLEND);
-  }
-
-  cv::Mat read() const {
-    cv::Mat light(sum_.height(), sum_.width(), CV_32FC4);
-    sum_.read(GL_RGBA, GL_FLOAT, light.data);
-    cv::Mat coded(light.size(), CV_8UC3);
-    const auto code = [](float value) {
-      return cv::saturate_cast<std::uint8_t>(255 / kLightRange * std::sqrt(value));
-    };
-    for (int y = 0; y < light.rows; ++y) {
-      for (int x = 0; x < light.cols; ++x) {
-        const cv::Vec4f& rgb = light.at<cv::Vec4f>(y, x);
-        coded.at<cv::Vec3b>(y, x) = {code(rgb[2]), code(rgb[1]), code(rgb[0])};
-      }
-    }
-    return coded;
+    target_.read(GL_RED, GL_FLOAT, depths_.data);
+    return depths_;
   }
 
  private:
-  void upload_texels(const WorldMesh& mesh) {
-    std::vector<Eigen::Vector4f> positions;
-    std::vector<Eigen::Vector4f> normals;
-    for (const LightTexel& texel : mesh.texels) {
-      positions.push_back(texel.position);
-      normals.push_back(texel.normal);
-    }
-    positions_ = render::Texture(*gl_, mesh.atlas_width, mesh.atlas_height, kFloats4, GL_NEAREST);
-    positions_.upload(positions.data());
-    normals_ = render::Texture(*gl_, mesh.atlas_width, mesh.atlas_height, kFloats4, GL_NEAREST);
-    normals_.upload(normals.data());
-  }
-
   const render::Gl* gl_ = nullptr;
-  render::Program depth_;
-  render::Program gather_;
-  render::Framebuffer depths_;
-  render::Framebuffer sum_;
-  render::Texture positions_;
-  render::Texture normals_;
+  render::Program program_;
+  render::Framebuffer target_;
+  cv::Mat depths_;
 };
+
+// Adds one light to all texels that see it.
+void add_light(const FarLight& light, const render::View& view, const cv::Mat& depths,
+               const std::vector<LightTexel>& texels, std::vector<Eigen::Array3f>& sum) {
+  const Eigen::Vector3f towards = light.towards.cast<float>();
+  const Eigen::Array3f radiance = light.radiance.array().cast<float>();
+  const Eigen::Matrix<float, 3, 4> camera_from_world =
+      view.world_from_camera.inverse().matrix().topRows<3>().cast<float>();
+  const float scale = static_cast<float>(view.camera.fx);
+  const float centre = static_cast<float>(view.camera.cx);
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    const LightTexel& texel = texels[i];
+    const float facing = texel.normal.head<3>().dot(towards);
+    if (facing <= 0) continue;
+    const Eigen::Vector3f seen =
+        camera_from_world * (texel.position + kOffset * texel.normal);  // normal's w is 0
+    const auto pixel = [&](float metres) {
+      return std::clamp(static_cast<int>(scale * metres + centre + 0.5F), 0, kMapSide - 1);
+    };
+    const float nearest = depths.at<float>(pixel(seen.y()), pixel(seen.x()));
+    if (seen.z() < nearest + 0.5F * kOffset) sum[i] += facing * radiance;
+  }
+}
+
+cv::Mat coded(const std::vector<Eigen::Array3f>& light, int width, int height) {
+  cv::Mat image(height, width, CV_8UC3);
+  cv::Vec3b* pixel = image.ptr<cv::Vec3b>();
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    const Eigen::Array3f code = 255 / kLightRange * light[i].sqrt();
+    for (int channel = 0; channel < 3; ++channel)
+      pixel[i][channel] = cv::saturate_cast<std::uint8_t>(code[2 - channel]);
+  }
+  return image;
+}
 
 }  // namespace
 
 Result<cv::Mat> gather_light(const render::Gl& gl, const World& world, const WorldMesh& mesh,
                              const GpuWorld& gpu_world) {
-  auto gatherer = Gatherer::make(gl, mesh);
-  if (!gatherer) return gatherer.error();
+  auto camera = ShadowCamera::make(gl);
+  if (!camera) return camera.error();
   const Ball ball = ball_around_casters(world, mesh);
+  std::vector<Eigen::Array3f> sum(mesh.texels.size(), Eigen::Array3f::Zero());
   for (const FarLight& light : far_lights(world.light)) {
     const render::View view = view_from(light.towards, ball);
-    gatherer->draw_depths(view, world, gpu_world);
-    gatherer->add(light, view);
+    add_light(light, view, camera->draw(view, world, gpu_world), mesh.texels, sum);
   }
-  return gatherer->read();
+  return coded(sum, mesh.atlas_width, mesh.atlas_height);
 }
 
 }  // namespace armsreach::sim

@@ -24,7 +24,7 @@ cv::Mat paint_plain(const Material& material, Random& random) {
 // Boards along x, each with its own tone, long streaks of grain and some darker year rings.
 cv::Mat paint_wood(const Material& material, Random& random) {
   constexpr int kBoards = 8;
-  const int side = kLargeSide;
+  const int side = material.size < 1 ? kSide : kLargeSide;
   cv::Mat image = canvas(side, side, material.colors[0]);
   const cv::Mat streaks = noise(side, side, 6, side / 6, random);
   const cv::Mat fibres = noise(side, side, 24, side / 2, random);
@@ -126,7 +126,7 @@ cv::Mat paint_tiles(const Material& material, Random& random) {
 
 cv::Mat paint_plaster(const Material& material, Random& random) {
   cv::Mat image = canvas(kSide, kSide, material.colors[0]);
-  shade(image, clouds(kSide, kSide, 4, 7, 0.85, random), 0.035);
+  shade(image, clouds(kSide, kSide, 10, 5, 1.15, random), 0.03);
   return to_8_bit(image);
 }
 
@@ -163,7 +163,10 @@ cv::Mat paint_glaze(const Material& material, Random& random) {
   cv::Mat specked = to_8_bit(image);
   for (int i = 0; i < 420; ++i) {
     const cv::Point at(random.below(kSide), random.below(kSide));
-    cv::circle(specked, at, 1 + random.below(3), bgr(material.colors[2]), cv::FILLED, cv::LINE_AA);
+    // Higher than wide: around a mug or vase the pattern is stretched.
+    const int radius = 1 + random.below(2);
+    cv::ellipse(specked, at, {radius, 2 * radius + 1}, 0, 0, 360, bgr(material.colors[2]),
+                cv::FILLED, cv::LINE_AA);
   }
   specked.convertTo(image, CV_32FC3);
   shade(image, clouds(kSide, kSide, 4, 4, 0.6, random), 0.03);

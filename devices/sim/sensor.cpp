@@ -135,9 +135,13 @@ cv::Mat ColorSensor::measure(const cv::Mat& exact, double phase, std::int64_t fr
   const std::uint64_t key = mixed(seed_, static_cast<std::uint64_t>(frame));
   const double drift = description_.exposure_drift * std::sin(2 * std::numbers::pi * 2 * phase);
   const int gain = static_cast<int>(std::lround(256 * (1 + drift)));
+  // A lens and its colour filters spread a point over more than its pixel.
+  const cv::Matx13f spread(0.12F, 0.76F, 0.12F);
+  cv::Mat through_lens;
+  cv::sepFilter2D(exact, through_lens, CV_8U, spread, spread);
   cv::Mat measured(exact.size(), CV_8UC3);
   for (int y = 0; y < exact.rows; ++y) {
-    const std::uint8_t* in = exact.ptr<std::uint8_t>(y);
+    const std::uint8_t* in = through_lens.ptr<std::uint8_t>(y);
     const std::int16_t* noise = noise_.ptr<std::int16_t>(row_of(key, y)) + 3 * column_of(key);
     std::uint8_t* out = measured.ptr<std::uint8_t>(y);
     for (int i = 0; i < 3 * exact.cols; ++i)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "devices/sim/patches.hpp"
 
@@ -12,7 +13,7 @@ constexpr int kAtlasWidth = 512;
 
 // Soft light changes over centimetres on large faces and over millimetres on small things.
 int texel_count(double length, double longer_side) {
-  const double texel = std::clamp(longer_side / 150, 0.003, 0.025);
+  const double texel = std::clamp(longer_side / 120, 0.004, 0.03);
   return std::clamp(static_cast<int>(std::ceil(length / texel)), 4, kAtlasWidth);
 }
 
@@ -45,9 +46,31 @@ class Shelves {
 };
 
 struct PlacedPatch {
+  std::size_t thing = 0;
   Patch patch;
   Chart chart;
 };
+
+// All patches of the world in the order of its things; charts are placed from the highest to the
+// lowest, which wastes little.
+std::vector<PlacedPatch> placed_patches(const World& world, Shelves& shelves) {
+  std::vector<PlacedPatch> placed;
+  for (std::size_t i = 0; i < world.things.size(); ++i) {
+    for (Patch& patch : patches_of(world.things[i].shape)) {
+      const double longer = std::max(patch.width, patch.height);
+      const Chart chart{0, 0, texel_count(patch.width, longer), texel_count(patch.height, longer)};
+      placed.push_back({i, std::move(patch), chart});
+    }
+  }
+  std::vector<std::size_t> order(placed.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return placed[a].chart.height > placed[b].chart.height;
+  });
+  for (const std::size_t i : order)
+    placed[i].chart = shelves.place(placed[i].chart.width, placed[i].chart.height);
+  return placed;
+}
 
 Eigen::Vector2d texture_at(const Patch& patch, const Material& material, double u, double v,
                            const Eigen::Vector3d& position) {
@@ -106,30 +129,21 @@ void add_texels(const PlacedPatch& placed, const Pose& world_from_thing, WorldMe
 
 WorldMesh mesh_of(const World& world) {
   Shelves shelves;
-  std::vector<std::vector<PlacedPatch>> placed(world.things.size());
-  for (std::size_t i = 0; i < world.things.size(); ++i) {
-    for (Patch& patch : patches_of(world.things[i].shape)) {
-      const double longer = std::max(patch.width, patch.height);
-      const Chart chart =
-          shelves.place(texel_count(patch.width, longer), texel_count(patch.height, longer));
-      placed[i].push_back({std::move(patch), chart});
-    }
-  }
+  const std::vector<PlacedPatch> patches = placed_patches(world, shelves);
   WorldMesh mesh;
   mesh.atlas_width = kAtlasWidth;
   mesh.atlas_height = shelves.height();
   mesh.texels.assign(static_cast<std::size_t>(mesh.atlas_width * mesh.atlas_height),
                      {Eigen::Vector4f::Zero(), Eigen::Vector4f::Zero()});
-  for (std::size_t i = 0; i < world.things.size(); ++i) {
-    const Thing& thing = world.things[i];
-    MeshRange range;
-    range.first = static_cast<std::uint32_t>(mesh.indices.size());
-    for (const PlacedPatch& one : placed[i]) {
-      add_triangles(one, world.materials[static_cast<std::size_t>(thing.material)], mesh);
-      add_texels(one, thing.world_from_thing, mesh);
-    }
-    range.count = static_cast<std::uint32_t>(mesh.indices.size()) - range.first;
-    mesh.things.push_back(range);
+  mesh.things.resize(world.things.size());
+  for (const PlacedPatch& placed : patches) {
+    const Thing& thing = world.things[placed.thing];
+    const std::uint32_t first = static_cast<std::uint32_t>(mesh.indices.size());
+    add_triangles(placed, world.materials[static_cast<std::size_t>(thing.material)], mesh);
+    add_texels(placed, thing.world_from_thing, mesh);
+    MeshRange& range = mesh.things[placed.thing];
+    if (range.count == 0) range.first = first;
+    range.count += static_cast<std::uint32_t>(mesh.indices.size()) - first;
   }
   return mesh;
 }

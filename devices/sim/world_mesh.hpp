@@ -20,8 +20,8 @@ struct WorldVertex {
 };
 
 struct LightTexel {
-  Eigen::Vector4f position;  // world frame; w = 1, or 0 where no surface is
-  Eigen::Vector4f normal;    // world frame; w unused
+  Eigen::Vector4f position;  // world frame; w = 1
+  Eigen::Vector4f normal;    // world frame; w = 0; zero where no surface is
 };
 
 struct MeshRange {  // of the thing with the same index

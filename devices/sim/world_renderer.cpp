@@ -16,7 +16,6 @@
 namespace armsreach::sim {
 namespace {
 
-constexpr int kSamples = 4;
 constexpr render::TextureFormat kColor{GL_RGBA8, GL_BGRA, GL_UNSIGNED_BYTE};
 constexpr render::TextureFormat kDepth{GL_R32F, GL_RED, GL_FLOAT};
 
@@ -34,16 +33,15 @@ render::Texture make_texture(const render::Gl& gl, const cv::Mat& bgr) {
     gl.TexImage2D(GL_TEXTURE_2D, level, kColor.internal, image.cols, image.rows, 0, kColor.format,
                   kColor.type, image.data);
   }
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_REPEAT);
   return texture;
 }
 
-Result<render::Program> surface_program(const render::Gl& gl,
-                                        const std::vector<std::string_view>& fragment) {
+Result<render::Program> surface_program(const render::Gl& gl, std::string_view highlight) {
   return render::Program::from_assets(gl, {"shaders/view.glsl", "shaders/sim_surface.vertex.glsl"},
-                                      fragment);
+                                      {highlight, "shaders/sim_surface.fragment.glsl"});
 }
 
 }  // namespace
@@ -56,34 +54,26 @@ Result<std::unique_ptr<WorldRenderer>> WorldRenderer::make(const render::Gl& gl,
                                                            std::uint64_t seed) {
   std::unique_ptr<WorldRenderer> made(new WorldRenderer(gl, world, camera));
   if (auto status = made->make_programs(); !status) return status.error();
-  if (auto status = made->make_targets(); !status) return status.error();
+  if (auto status = made->make_target(); !status) return status.error();
   if (auto status = made->paint(seed); !status) return status.error();
   return made;
 }
 
 Status WorldRenderer::make_programs() {
-  auto dull = surface_program(gl_, {"shaders/sim_dull.glsl", "shaders/sim_color.fragment.glsl"});
+  auto dull = surface_program(gl_, "shaders/sim_dull.glsl");
   if (!dull) return dull.error();
-  auto shiny = surface_program(gl_, {"shaders/sim_shiny.glsl", "shaders/sim_color.fragment.glsl"});
+  auto shiny = surface_program(gl_, "shaders/sim_shiny.glsl");
   if (!shiny) return shiny.error();
-  auto depth = surface_program(gl_, {"shaders/sim_depth.fragment.glsl"});
-  if (!depth) return depth.error();
   dull_ = std::move(*dull);
   shiny_ = std::move(*shiny);
-  depth_ = std::move(*depth);
   return ok();
 }
 
-Status WorldRenderer::make_targets() {
-  auto color =
-      render::Framebuffer::make(gl_, {camera_.width, camera_.height, kSamples, {kColor}, true});
-  if (!color) return color.error();
-  // Depth is that of the ray through the pixel's centre: an average over samples would lie in
-  // mid-air at edges.
-  auto depth = render::Framebuffer::make(gl_, {camera_.width, camera_.height, 0, {kDepth}, true});
-  if (!depth) return depth.error();
-  color_target_ = std::move(*color);
-  depth_target_ = std::move(*depth);
+Status WorldRenderer::make_target() {
+  auto target =
+      render::Framebuffer::make(gl_, {camera_.width, camera_.height, 0, {kColor, kDepth}, true});
+  if (!target) return target.error();
+  target_ = std::move(*target);
   return ok();
 }
 
@@ -102,20 +92,36 @@ Status WorldRenderer::paint(std::uint64_t seed) {
 }
 
 ExactImages WorldRenderer::draw(const Pose& world_from_camera) const {
+  target_.bind();
   gl_.Enable(GL_DEPTH_TEST);
   gl_.Disable(GL_BLEND);
-  // Row 0 of a target is the picture's upper edge, which turns the sense of rotation over.
+  // Row 0 of the target is the picture's upper edge, which turns the sense of rotation over.
   gl_.Enable(GL_CULL_FACE);
   gl_.FrontFace(GL_CW);
+  constexpr std::array kBlack{0.0F, 0.0F, 0.0F, 0.0F};
+  constexpr std::array kUnknown{std::numeric_limits<float>::quiet_NaN(), 0.0F, 0.0F, 0.0F};
+  gl_.Clear(GL_DEPTH_BUFFER_BIT);
+  gl_.ClearBufferfv(GL_COLOR, 0, kBlack.data());
+  gl_.ClearBufferfv(GL_COLOR, 1, kUnknown.data());
   gpu_world_.bind();
-  draw_color(world_from_camera);
-  draw_depth(world_from_camera);
+  light_map_.bind(1);
+  draw_things(shiny_, world_from_camera,
+              [](const Thing&, const Material& material) { return material.shine > 0; });
+  // Floor and walls come last: most of them is hidden and then costs nothing.
+  for (const bool panels : {false, true}) {
+    draw_things(dull_, world_from_camera, [panels](const Thing& thing, const Material& material) {
+      return material.shine == 0 && std::holds_alternative<Panel>(thing.shape) == panels;
+    });
+  }
+  return read();
+}
 
+ExactImages WorldRenderer::read() const {
   cv::Mat color(camera_.height, camera_.width, CV_8UC4);
-  color_target_.read(GL_BGRA, GL_UNSIGNED_BYTE, color.data);
+  target_.read(GL_BGRA, GL_UNSIGNED_BYTE, color.data, 0);
   ExactImages images;
-  images.depth.create(camera_.height, camera_.width, CV_32F);
-  depth_target_.read(GL_RED, GL_FLOAT, images.depth.data);
+  images.depth.create(color.size(), CV_32F);
+  target_.read(GL_RED, GL_FLOAT, images.depth.data, 1);
   images.color.create(color.size(), CV_8UC3);
   images.returned.create(color.size(), CV_8U);
   std::array<cv::Mat, 2> parts{images.color, images.returned};
@@ -124,47 +130,25 @@ ExactImages WorldRenderer::draw(const Pose& world_from_camera) const {
   return images;
 }
 
-void WorldRenderer::draw_color(const Pose& world_from_camera) const {
-  color_target_.bind();
-  gl_.ClearColor(0, 0, 0, 0);
-  gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  light_map_.bind(1);
-  for (const bool shiny : {false, true}) {
-    const render::Program& program = shiny ? shiny_ : dull_;
-    program.use();
-    render::set_view(program, render::view_of(camera_, world_from_camera));
-    program.set("pattern", 0);
-    program.set("light_map", 1);
-    program.set("light_range", kLightRange);
-    program.set("eye_in_world", Eigen::Vector3f(world_from_camera.translation().cast<float>()));
-    program.set("towards_light", Eigen::Vector3f(world_.light.towards.cast<float>()));
-    draw_things(program, shiny);
-  }
-  color_target_.resolve();
-}
-
-void WorldRenderer::draw_things(const render::Program& program, bool shiny) const {
+template <class Wanted>
+void WorldRenderer::draw_things(const render::Program& program, const Pose& world_from_camera,
+                                const Wanted& wanted) const {
+  program.use();
+  render::set_view(program, render::view_of(camera_, world_from_camera));
+  program.set("pattern", 0);
+  program.set("light_map", 1);
+  program.set("light_range", kLightRange);
+  program.set("eye_in_world", Eigen::Vector3f(world_from_camera.translation().cast<float>()));
+  program.set("towards_light", Eigen::Vector3f(world_.light.towards.cast<float>()));
   for (std::size_t i = 0; i < world_.things.size(); ++i) {
     const Thing& thing = world_.things[i];
-    const Material& material = material_of(thing);
-    if ((material.shine > 0) != shiny) continue;
+    const std::size_t material_index = static_cast<std::size_t>(thing.material);
+    const Material& material = world_.materials[material_index];
+    if (!wanted(thing, material)) continue;
     program.set("world_from_thing", Eigen::Matrix4f(thing.world_from_thing.matrix().cast<float>()));
     program.set("infrared", static_cast<float>(material.infrared));
     program.set("shine", static_cast<float>(material.shine));
-    patterns_[static_cast<std::size_t>(thing.material)].bind(0);
-    gpu_world_.draw(i);
-  }
-}
-
-void WorldRenderer::draw_depth(const Pose& world_from_camera) const {
-  depth_target_.bind();
-  gl_.ClearColor(std::numeric_limits<float>::quiet_NaN(), 0, 0, 0);
-  gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  depth_.use();
-  render::set_view(depth_, render::view_of(camera_, world_from_camera));
-  for (std::size_t i = 0; i < world_.things.size(); ++i) {
-    depth_.set("world_from_thing",
-               Eigen::Matrix4f(world_.things[i].world_from_thing.matrix().cast<float>()));
+    patterns_[material_index].bind(0);
     gpu_world_.draw(i);
   }
 }

@@ -34,15 +34,14 @@ class WorldRenderer {
  private:
   WorldRenderer(const render::Gl& gl, const World& world, const Camera& camera);
   Status make_programs();
-  Status make_targets();
+  Status make_target();
   Status paint(std::uint64_t seed);
 
-  void draw_color(const Pose& world_from_camera) const;
-  void draw_things(const render::Program& program, bool shiny) const;
-  void draw_depth(const Pose& world_from_camera) const;
-  const Material& material_of(const Thing& thing) const {
-    return world_.materials[static_cast<std::size_t>(thing.material)];
-  }
+  // Those things that `wanted(thing, material)` picks.
+  template <class Wanted>
+  void draw_things(const render::Program& program, const Pose& world_from_camera,
+                   const Wanted& wanted) const;
+  ExactImages read() const;
 
   const render::Gl& gl_;
   World world_;
@@ -50,11 +49,9 @@ class WorldRenderer {
   GpuWorld gpu_world_;
   render::Program dull_;
   render::Program shiny_;
-  render::Program depth_;
   std::vector<render::Texture> patterns_;  // by material
   render::Texture light_map_;
-  render::Framebuffer color_target_;
-  render::Framebuffer depth_target_;
+  render::Framebuffer target_;  // colour, with infra-red in its alpha; depth
 };
 
 }  // namespace armsreach::sim
