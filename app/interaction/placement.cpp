@@ -55,8 +55,7 @@ Events Placement::insert(const Click& click, const WorldView& world,
   const Eigen::Vector3d& normal = plane->normal_in_world;
   const double offset = normal.dot(*foot - plane->point_in_world);
   const Pose world_from_object = standing_pose(*foot - offset * normal, normal, viewer_in_world);
-  objects_.push_back(
-      {next_id_++, click.insert, scale_of(click.insert), world.anchor(world_from_object), false});
+  objects_.push_back({next_id_++, click.insert, world.anchor(world_from_object), false});
   return {{time, InsertEvent{click.insert, objects_.back().id, world_from_object}}};
 }
 

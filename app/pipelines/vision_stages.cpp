@@ -3,6 +3,8 @@
 #include <fstream>
 #include <utility>
 
+#include "vision/mapping/octree_codec.hpp"
+
 namespace armsreach::app {
 namespace {
 
@@ -46,7 +48,10 @@ MapStatePtr MappingStage::process(const TrackedFramePtr& tracked) {
 Status MappingStage::save(const std::string& path) const {
   std::ofstream out(path, std::ios::binary);
   if (!out) return Error{"cannot be written", path, "check that its folder exists and is yours"};
-  return Error{"not yet", path, ""};
+  mapping::write_octree(out, mapper_.map().grid());
+  out.close();
+  if (out) return ok();
+  return Error{"could not be written completely", path, "is the disk full?", Error::Kind::device};
 }
 
 }  // namespace armsreach::app
