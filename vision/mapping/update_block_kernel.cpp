@@ -180,8 +180,8 @@ inline void add_intensity(Block& block, int at, const Cube& cube, const Ints& ne
 }
 
 // Signed distance: running weighted mean (Curless and Levoy, "A volumetric method for building
-// complex models from range images", 1996). The weight falls with the square of the depth and with
-// the slant.
+// complex models from range images", 1996). The weight falls with the square of the depth and
+// with the square of the slant's cosine.
 inline void add_distance(Block& block, int at, const Cube& cube, const Surface& s,
                          const Ints& valid, const FrameEvidence& f) {
   Words stored_weight;
@@ -194,7 +194,7 @@ inline void add_distance(Block& block, int at, const Cube& cube, const Surface& 
   Floats range = cube.x * cube.x + cube.y * cube.y + cube.z * cube.z;
   square_root(range);
   const Floats metres = s.depth * f.voxel;
-  Floats gain = s.along * (1.0F / kWeightUnit) / (range * metres * metres);
+  Floats gain = s.along * s.per_edge * (1.0F / kWeightUnit) / (range * metres * metres);
   most(gain, Floats{} + 1.0F);
   least(gain, Floats{} + 4.0F / kWeightUnit);
   Floats measured = s.distance;
