@@ -91,9 +91,9 @@ render::View view_from(const Vector3d& towards_light, const Ball& ball) {
 class ShadowCamera {
  public:
   static Result<ShadowCamera> make(const render::Gl& gl) {
-    auto program =
-        render::Program::from_assets(gl, {"shaders/view.glsl", "shaders/sim_surface.vertex.glsl"},
-                                     {"shaders/sim_depth.fragment.glsl"});
+    auto program = render::Program::from_assets(
+        gl, {"shaders/target.glsl", "shaders/view.glsl", "shaders/sim_surface.vert.glsl"},
+        {"shaders/sim_depth.frag.glsl"});
     if (!program) return program.error();
     constexpr render::TextureFormat kFloats{GL_R32F, GL_RED, GL_FLOAT};
     auto target = render::Framebuffer::make(gl, {kMapSide, kMapSide, 0, {kFloats}, true});

@@ -13,7 +13,7 @@ constexpr int kAtlasWidth = 512;
 
 // Soft light changes over centimetres on large faces and over millimetres on small things.
 int texel_count(double length, double longer_side) {
-  const double texel = std::clamp(longer_side / 120, 0.004, 0.03);
+  const double texel = std::clamp(longer_side / 100, 0.005, 0.03);
   return std::clamp(static_cast<int>(std::ceil(length / texel)), 4, kAtlasWidth);
 }
 

@@ -40,8 +40,9 @@ render::Texture make_texture(const render::Gl& gl, const cv::Mat& bgr) {
 }
 
 Result<render::Program> surface_program(const render::Gl& gl, std::string_view highlight) {
-  return render::Program::from_assets(gl, {"shaders/view.glsl", "shaders/sim_surface.vertex.glsl"},
-                                      {highlight, "shaders/sim_surface.fragment.glsl"});
+  return render::Program::from_assets(
+      gl, {"shaders/target.glsl", "shaders/view.glsl", "shaders/sim_surface.vert.glsl"},
+      {highlight, "shaders/sim_surface.frag.glsl"});
 }
 
 }  // namespace

@@ -110,9 +110,9 @@ TEST(DepthSensor, AnExactSensorOnlyCutsItsRange) {
 // board's left without light, f b (1/near - 1/far) wide.
 TEST(DepthSensor, EdgesHaveHolesAndTheShadowLiesOnTheLeft) {
   const DepthSensor sensor(kinect(), kFocal, 1);
-  constexpr float kNear = 1;
-  constexpr float kFar = 2;
-  cv::Mat exact = wall_at(kFar);
+  constexpr double kNear = 1;
+  constexpr double kFar = 2;
+  cv::Mat exact = wall_at(static_cast<float>(kFar));
   exact(cv::Rect(300, 0, 100, kHeight)).setTo(kNear);
   const cv::Mat measured = sensor.measure(exact, bright(), 0);
   const int shadow = static_cast<int>(kFocal * 0.075 * (1 / kNear - 1 / kFar));  // 19 px
@@ -139,9 +139,9 @@ TEST(DepthSensor, GrazingLightDoesNotComeBack) {
   description.farthest = 1000;
   const DepthSensor sensor(description, kFocal, 1);
   // cos of the angle of incidence, as the slope per pixel gives it, is v / sqrt(v^2 + f^2): under
-  // the threshold of 0.2 for v < 107, that is for rows above 47.
+  // the threshold of 0.2 +- 0.03 for v < 107, that is for rows above 47.
   const cv::Mat measured = sensor.measure(floor_below(0.7), bright(), 0);
-  EXPECT_EQ(share_unknown(measured.rowRange(0, 20)), 1);
+  EXPECT_GT(share_unknown(measured.rowRange(0, 20)), 0.95);
   EXPECT_LT(share_unknown(measured.rowRange(100, kHeight - 1)), 0.01);
 }
 

@@ -1,4 +1,4 @@
-// Things of a simulated world; joined after view.glsl.
+// Things of a simulated world; joined after target.glsl and view.glsl.
 layout(location = 0) in vec3 position;  // in the thing's frame
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 texture_place;
