@@ -105,8 +105,9 @@ void follow(const View& from, const View& to, std::vector<Followed>* corners) {
   cv::calcOpticalFlowPyrLK(to.grey, from.grey, after, back, found_back, cv::noArray());
   std::vector<Followed> kept;
   for (size_t i = 0; i < before.size(); ++i) {
-    const bool inside = after[i].x > 8 && after[i].y > 8 && after[i].x < to.grey.cols - 8.0F &&
-                        after[i].y < to.grey.rows - 8.0F;
+    const bool inside = after[i].x > 8 && after[i].y > 8 &&
+                        after[i].x < static_cast<float>(to.grey.cols - 8) &&
+                        after[i].y < static_cast<float>(to.grey.rows - 8);
     if (!found[i] || !found_back[i] || !inside || cv::norm(back[i] - before[i]) > 0.5) continue;
     kept.push_back({(*corners)[i].point_in_world, after[i]});
   }
