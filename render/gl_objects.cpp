@@ -222,6 +222,14 @@ void Framebuffer::resolve(int x, int y, int width, int height) const {
   }
 }
 
+void Framebuffer::copy_to(const Framebuffer& target, int x, int y) const {
+  gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, resolved_id());
+  gl_->ReadBuffer(GL_COLOR_ATTACHMENT0);
+  gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, target.resolved_id());
+  gl_->BlitFramebuffer(0, 0, width(), height(), x, y, x + width(), y + height(),
+                       GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
 void Framebuffer::read(GLenum format, GLenum type, void* pixels, int index) const {
   gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, textures_framebuffer_.id());
   gl_->ReadBuffer(attachment(static_cast<std::size_t>(index)));

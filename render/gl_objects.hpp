@@ -148,6 +148,9 @@ class Framebuffer {
   // Reads the resolved colour `index`, top row first, tightly packed.
   void read(GLenum format, GLenum type, void* pixels, int index = 0) const;
 
+  // Copies the resolved first colour to a place in another framebuffer's textures, unscaled.
+  void copy_to(const Framebuffer& target, int x, int y) const;
+
   const Texture& color(int index = 0) const { return textures_[static_cast<std::size_t>(index)]; }
   int width() const { return options_.width; }
   int height() const { return options_.height; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <utility>
 
 #include "render/annotations.hpp"
@@ -116,20 +117,27 @@ void draw_scale_bar(ImDrawList& list, const Fonts& fonts, const View& view,
 
 }  // namespace
 
-void draw_framed(ImDrawList& list, const Texture& texture, const Rectangle& place) {
-  const ImVec2 low{static_cast<float>(place.x), static_cast<float>(place.y)};
-  const ImVec2 high{low.x + static_cast<float>(place.width),
-                    low.y + static_cast<float>(place.height)};
-  list.AddImageRounded(imgui_texture(texture), low, high, {0, 0}, {1, 1}, IM_COL32_WHITE,
-                       theme::kRounding);
+void round_corners(ImDrawList& list, const Rectangle& place) {
+  const float r = theme::kRounding;
+  const float pi = std::numbers::pi_v<float>;
+  for (int corner = 0; corner < 4; ++corner) {
+    const bool right = corner == 1 || corner == 2;
+    const bool lower = corner >= 2;
+    const ImVec2 tip{static_cast<float>(place.x + (right ? place.width : 0)),
+                     static_cast<float>(place.y + (lower ? place.height : 0))};
+    const ImVec2 centre{tip.x + (right ? -r : r), tip.y + (lower ? -r : r)};
+    const float from = pi + 0.5F * pi * static_cast<float>(corner);
+    list.PathLineTo(tip);
+    list.PathArcTo(centre, r, from + 0.5F * pi, from, 8);
+    list.PathFillConvex(imgui_color(theme::kDesk));
+  }
 }
 
-Result<MapView> MapView::make(const Gl& gl, const Options& options) {
+Result<MapView> MapView::make(const Gl& gl) {
   auto cloud = SurfaceCloud::make(gl);
   if (!cloud) return cloud.error();
   MapView map;
   map.gl_ = &gl;
-  map.options_ = options;
   map.cloud_ = *std::move(cloud);
   const std::array kinds{ViewKind::map, ViewKind::top, ViewKind::front, ViewKind::side};
   for (std::size_t i = 0; i < kinds.size(); ++i) map.pictures_[i].kind = kinds[i];
@@ -196,9 +204,9 @@ Status MapView::draw(const Scene& scene, ObjectPainter& objects, const LinePaint
 Status MapView::draw_picture(Picture& picture, const Scene& scene, ObjectPainter& objects,
                              const LinePainter& lines, const Rectangle& place) {
   if (picture.framebuffer.width() != place.width || picture.framebuffer.height() != place.height) {
-    auto made = Framebuffer::make(
-        *gl_,
-        {.width = place.width, .height = place.height, .samples = options_.samples, .depth = true});
+    // Without MSAA, which would double the cost: a cloud of points has no edges to smooth.
+    auto made =
+        Framebuffer::make(*gl_, {.width = place.width, .height = place.height, .depth = true});
     if (!made) return made.error();
     picture.framebuffer = *std::move(made);
   }
@@ -227,14 +235,20 @@ Status MapView::draw_picture(Picture& picture, const Scene& scene, ObjectPainter
   if (scene.pose_known)
     add_camera(over, scene, static_cast<float>(0.07 * framing_.box().diagonal().norm()));
   lines.draw(picture.view, over, 1.8F);
-  picture.framebuffer.resolve();
   return ok();
 }
 
-void MapView::draw_pictures(ImDrawList& list, const Fonts& fonts, const Desk& desk) const {
+void MapView::copy_pictures(const Framebuffer& target, const Desk& desk) const {
   for (const Picture& picture : pictures_) {
     const Rectangle& place = place_of(picture.kind, desk);
-    draw_framed(list, picture.framebuffer.color(), place);
+    picture.framebuffer.copy_to(target, place.x, place.y);
+  }
+}
+
+void MapView::draw_frames(ImDrawList& list, const Fonts& fonts, const Desk& desk) const {
+  for (const Picture& picture : pictures_) {
+    const Rectangle& place = place_of(picture.kind, desk);
+    round_corners(list, place);
     const char* title = picture.kind == ViewKind::map     ? "Map"
                         : picture.kind == ViewKind::top   ? "Top"
                         : picture.kind == ViewKind::front ? "Front"

@@ -19,17 +19,14 @@ namespace armsreach::render {
 
 class MapView {
  public:
-  struct Options {
-    int samples = 4;  // MSAA
-  };
-
-  static Result<MapView> make(const Gl& gl, const Options& options);
+  static Result<MapView> make(const Gl& gl);
 
   // Brings the pictures up to date.
   Status draw(const Scene& scene, ObjectPainter& objects, const LinePainter& lines,
               const Desk& desk);
-  // Places them on the desk, with titles and scale bars.
-  void draw_pictures(ImDrawList& list, const Fonts& fonts, const Desk& desk) const;
+  // Places them on the desk, and their titles, scale bars and round corners over them.
+  void copy_pictures(const Framebuffer& target, const Desk& desk) const;
+  void draw_frames(ImDrawList& list, const Fonts& fonts, const Desk& desk) const;
   // Turns (left drag), moves (right drag) and zooms (wheel) the orbiting view; a left click that
   // does not drag is returned with its ray, from any of the four views.
   std::optional<ViewClick> handle_mouse(const InputState& input, const Desk& desk);
@@ -50,7 +47,6 @@ class MapView {
                       const LinePainter& lines, const Rectangle& place);
 
   const Gl* gl_ = nullptr;
-  Options options_;
   SurfaceCloud cloud_;
   std::optional<RoomFromWorld> room_;
   bool room_is_guess_ = true;
@@ -69,7 +65,8 @@ class MapView {
   std::optional<Drag> drag_;
 };
 
-// A texture in a rounded frame on the desk.
-void draw_framed(ImDrawList& list, const Texture& texture, const Rectangle& place);
+// Covers a view's corners with the desk. (Drawing the view as a rounded image would cost a software
+// rasteriser more than drawing the view.)
+void round_corners(ImDrawList& list, const Rectangle& place);
 
 }  // namespace armsreach::render

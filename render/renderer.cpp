@@ -46,7 +46,7 @@ class SceneRenderer final : public Renderer {
     auto live = LiveView::make(gl, {.samples = options_.samples});
     if (!live) return live.error();
     live_ = *std::move(live);
-    auto map = MapView::make(gl, {.samples = options_.samples});
+    auto map = MapView::make(gl);
     if (!map) return map.error();
     map_ = *std::move(map);
     return resize(options_.width, options_.height);
@@ -146,12 +146,15 @@ class SceneRenderer final : public Renderer {
     const Eigen::Vector4f background = theme::rgba(theme::kDesk);
     gl.ClearColor(background.x(), background.y(), background.z(), 1);
     gl.Clear(GL_COLOR_BUFFER_BIT);
+    live_picture_.copy_to(picture_, desk.live.x, desk.live.y);
+    map_.copy_pictures(picture_, desk);
+    picture_.bind();
     ui_->begin(input, options_.width, options_.height);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     draw_header(ui_->fonts(), scene, desk.header);
-    map_.draw_pictures(list, ui_->fonts(), desk);
+    map_.draw_frames(list, ui_->fonts(), desk);
     draw_messages(list, ui_->fonts(), scene, desk.map);
-    draw_framed(list, live_picture_.color(), desk.live);
+    round_corners(list, desk.live);
     draw_annotations(list, ui_->fonts(), scene,
                      live_view_of(scene, desk.live.width, desk.live.height),
                      {static_cast<float>(desk.live.x), static_cast<float>(desk.live.y)});

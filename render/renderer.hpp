@@ -43,7 +43,7 @@ struct RendererOptions {
   int width = 640;  // px, of the picture
   int height = 480;
   Layout layout = Layout::wearer;
-  int samples = 4;  // MSAA
+  int samples = 4;  // MSAA of virtual objects in the live view
 };
 
 // Renderers of several contexts may exist, but draw from one thread at a time: the panels' library
