@@ -38,7 +38,7 @@ TEST(EndToEndCommandLine, WrongCommandsExitWithTwoAndSayWhatToDo) {
   const std::string camera = folder / "camera.yaml";
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
       {{}, "subcommand"},
-      {{"runn"}, "runn"},
+      {{"runn"}, "subcommand"},
       {{"run"}, "--source"},
       {{"run", "--source", "tum:/no/such/folder"}, "/no/such/folder"},
       {{"run", "--source", "sim:nowhere"}, "nowhere"},

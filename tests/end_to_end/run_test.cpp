@@ -78,7 +78,7 @@ TEST(EndToEndRun, ThreadedTurnsAndRepeatsAreBitIdentical) {
     TemporaryFolder folder;
     write_text(folder / "config.yaml",
                std::string("threads: ") + threads +
-                   "\nactions: [{frame: 20, click: [320, 300], insert: teapot}]\n");
+                   "\nactions: [{frame: 20, click: [450, 290], insert: teapot}]\n");
     const ProgramResult run =
         run_armsreach({"run", "--source", "sim:bench,noise=kinect", "--pace", "every-frame",
                        "--display", "none", "--frames", "60", "--config", folder / "config.yaml",

