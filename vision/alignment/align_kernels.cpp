@@ -10,7 +10,6 @@ using lanes::Int;
 using lanes::kBlock;
 using lanes::kWidth;
 
-constexpr float kDiscontinuity = 0.02F;  // relative change of depth a pixel that is no surface
 // A function, since a vector constant could be initialised by instructions the processor lacks.
 ARMSREACH_INLINE Float unknown() { return lanes::all(__builtin_nanf("")); }
 
@@ -85,7 +84,8 @@ ARMSREACH_INLINE void warp_lanes(const Planes& source, const Planes& target, con
   const Float steepest = lanes::max(lanes::abs(depth.x), lanes::abs(depth.y));
   const Float depth_gX = 0.5F * (target.fx * depth.x + per_denominator * gradient.X);
   const Float depth_gY = 0.5F * (target.fy * depth.y + per_denominator * gradient.Y);
-  const auto depth_known = inside & smooth_source & (steepest <= kDiscontinuity * depth.value);
+  const auto depth_known =
+      inside & smooth_source & (steepest <= target.greatest_step * depth.value);
 
   const Sample grey = sample(target.intensity, target.stride, cell, fx, fy);
   const Float grey_gX =

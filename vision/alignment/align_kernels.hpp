@@ -9,6 +9,7 @@ namespace armsreach {
 struct Planes {
   int width, height, stride;
   float fx, fy, cx, cy;
+  float greatest_step;  // see Level
   const float* inverse_depth;
   const float* inverse_depth_x;
   const float* inverse_depth_y;

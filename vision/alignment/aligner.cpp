@@ -28,6 +28,7 @@ Planes planes(const Level& level) {
           static_cast<float>(camera.fy),
           static_cast<float>(camera.cx),
           static_cast<float>(camera.cy),
+          level.greatest_step(),
           level.inverse_depth.data(),
           level.inverse_depth_x.data(),
           level.inverse_depth_y.data(),

@@ -106,7 +106,7 @@ void Level::assign_half(const Level& finer) {
 
 void Level::differentiate() {
   constexpr float kAnyStep = 1e9F;
-  central_differences(inverse_depth, width(), height(), stride(), kDiscontinuity, inverse_depth_x,
+  central_differences(inverse_depth, width(), height(), stride(), greatest_step(), inverse_depth_x,
                       inverse_depth_y);
   central_differences(intensity, width(), height(), stride(), kAnyStep, intensity_x, intensity_y);
 }

@@ -1,0 +1,1 @@
+armsreach_bench_part(SOURCES alignment_bench.cpp LINKS armsreach_alignment opencv_rgbd)
