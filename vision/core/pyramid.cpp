@@ -1,66 +1,60 @@
 #include "vision/core/pyramid.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <limits>
+#include <vector>
 
-#include <opencv2/imgproc.hpp>
+#include "vision/core/pyramid_kernels.hpp"
 
 namespace armsreach {
 namespace {
 
-constexpr float kSameSurface = 1.03F;  // samples up to 3 % behind the nearest are one surface
-
-float reduced_block(const cv::Mat& depth, int row0, int col0, int factor) {
-  constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
-  float nearest = std::numeric_limits<float>::infinity();
-  int known = 0;
-  for (int row = row0; row < row0 + factor; ++row) {
-    const float* line = depth.ptr<float>(row) + col0;
-    for (int i = 0; i < factor; ++i) {
-      if (!(line[i] > 0)) continue;
-      nearest = std::min(nearest, line[i]);
-      ++known;
-    }
-  }
-  if (known == 0 || 4 * known < factor * factor) return kUnknown;
-  const float limit = nearest * kSameSurface;
-  float sum = 0;
-  int count = 0;
-  for (int row = row0; row < row0 + factor; ++row) {
-    const float* line = depth.ptr<float>(row) + col0;
-    for (int i = 0; i < factor; ++i) {
-      if (!(line[i] <= limit && line[i] > 0)) continue;
-      sum += line[i];
-      ++count;
-    }
-  }
-  return sum / static_cast<float>(count);
-}
+constexpr int kLeastWidth = 16;  // of the kernels
 
 }  // namespace
 
+PyramidKernels pyramid_kernels(Isa isa) {
+#ifdef __x86_64__
+  if (isa == Isa::v4) return v4::kPyramidKernels;
+  if (isa == Isa::v3) return v3::kPyramidKernels;
+#endif
+  static_cast<void>(isa);
+  return baseline::kPyramidKernels;
+}
+
 cv::Mat reduced_depth(const cv::Mat& depth, int factor) {
   CV_Assert(depth.type() == CV_32FC1 && factor >= 1);
-  cv::Mat reduced(depth.rows / factor, depth.cols / factor, CV_32FC1);
-  for (int row = 0; row < reduced.rows; ++row) {
-    float* line = reduced.ptr<float>(row);
-    for (int col = 0; col < reduced.cols; ++col) {
-      line[col] = reduced_block(depth, row * factor, col * factor, factor);
-    }
+  const cv::Size size(depth.cols / factor, depth.rows / factor);
+  cv::Mat image = depth;
+  if (image.cols < kLeastWidth) {
+    image = cv::Mat(depth.rows, kLeastWidth, CV_32FC1, cv::Scalar(0));
+    depth.copyTo(image.colRange(0, depth.cols));
+  }
+  const int width = std::max(kLeastWidth, size.width * factor);
+  const int step = static_cast<int>(image.step1());
+  const PyramidKernels kernels = pyramid_kernels(best_isa());
+  std::vector<float> scratch(3 * width);
+  cv::Mat reduced(size, CV_32FC1);
+  std::vector<float> line(width / factor);
+  for (int row = 0; row < size.height; ++row) {
+    kernels.depth_row(image.ptr<float>(row * factor), step, width, factor, scratch.data(),
+                      line.data());
+    std::copy_n(line.data(), size.width, reduced.ptr<float>(row));
   }
   return reduced;
 }
 
 cv::Mat reduced_intensity(const cv::Mat& image, int factor) {
-  CV_Assert(image.depth() == CV_8U && factor >= 1);
-  const cv::Size size(image.cols / factor, image.rows / factor);
-  const cv::Mat whole_blocks = image(cv::Rect(0, 0, size.width * factor, size.height * factor));
-  cv::Mat small;
-  cv::resize(whole_blocks, small, size, 0, 0, cv::INTER_AREA);
-  if (small.channels() == 3) cv::cvtColor(small, small, cv::COLOR_BGR2GRAY);
-  cv::Mat intensity;
-  small.convertTo(intensity, CV_32F, 1.0 / 255);
-  return intensity;
+  CV_Assert((image.type() == CV_8UC1 || image.type() == CV_8UC3) && factor >= 1 && factor <= 256);
+  const int width = image.cols / factor * factor;
+  const PyramidKernels kernels = pyramid_kernels(best_isa());
+  std::vector<std::uint16_t> scratch(width * image.channels());
+  cv::Mat reduced(image.rows / factor, image.cols / factor, CV_32FC1);
+  for (int row = 0; row < reduced.rows; ++row) {
+    kernels.intensity_row(image.ptr(row * factor), static_cast<int>(image.step), width,
+                          image.channels(), factor, scratch.data(), reduced.ptr<float>(row));
+  }
+  return reduced;
 }
 
 }  // namespace armsreach
