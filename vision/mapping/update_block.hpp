@@ -1,0 +1,44 @@
+// The inner loop of insertion: one frame's evidence into one block.
+#pragma once
+
+#include <cstdint>
+
+#include "vision/mapping/block.hpp"
+#include "vision/mapping/pixel_plane.hpp"
+
+namespace armsreach::mapping {
+
+// A frame as the inner loop wants it. Lengths are in voxel edges, directions in the camera's frame.
+struct FrameEvidence {
+  const PixelPlane* planes = nullptr;  // width * height, then one unknown
+  const float* intensity = nullptr;    // width * height, NaN unknown; or null
+  int width = 0;
+  int height = 0;
+  float fx = 0;
+  float fy = 0;
+  float cx = 0;
+  float cy = 0;
+  float step[3][3] = {};  // one voxel along the world's x, y, z
+  float voxel = 0;        // m
+  float noise = 0;        // sigma = noise * depth^2, in voxel edges
+
+  const std::int16_t* hits = nullptr;  // HitTable
+  int hit_rows = 0;
+  float hit_rows_per_edge = 0;
+
+  std::int16_t free = 0;  // log-odds of what lies in front, and the clamps of their sum
+  std::int16_t lowest = 0;
+  std::int16_t highest = 0;
+  std::int16_t occupied_above = 0;
+  float max_weight = 0;
+  float intensity_rate = 0;  // least share of a new intensity
+  // false: only voxels in the band d +- (3 sigma + 3 s). true: voxels in front of it that the block
+  // knows already, too: what stood there is gone.
+  bool carve = false;
+};
+
+// `origin` is the centre of the block's voxel (0,0,0). False when the frame says nothing about the
+// block, which is then untouched.
+bool update_block(Block& block, const float (&origin)[3], const FrameEvidence& frame);
+
+}  // namespace armsreach::mapping

@@ -1,0 +1,173 @@
+#include "vision/mapping/voxel_map.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <iterator>
+#include <memory>
+
+#include "vision/mapping/band_blocks.hpp"
+#include "vision/mapping/depth_planes.hpp"
+#include "vision/mapping/update_block.hpp"
+
+namespace armsreach::mapping {
+namespace {
+
+FrameEvidence frame_evidence(const VoxelMapOptions& options, const HitTable& hits,
+                             const DepthPlanes& planes, const cv::Mat& intensity,
+                             const Camera& camera, const Pose& camera_from_world) {
+  FrameEvidence frame;
+  frame.planes = planes.planes.data();
+  frame.intensity = intensity.empty() ? nullptr : intensity.ptr<float>();
+  frame.width = planes.width;
+  frame.height = planes.height;
+  frame.fx = static_cast<float>(camera.fx);
+  frame.fy = static_cast<float>(camera.fy);
+  frame.cx = static_cast<float>(camera.cx);
+  frame.cy = static_cast<float>(camera.cy);
+  const Eigen::Matrix3d rotation = camera_from_world.rotation_matrix();
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int i = 0; i < 3; ++i) frame.step[axis][i] = static_cast<float>(rotation(i, axis));
+  }
+  frame.voxel = static_cast<float>(options.resolution);
+  frame.noise = static_cast<float>(options.sensor.noise * options.resolution);
+  frame.hits = hits.data();
+  frame.hit_rows = hits.rows();
+  frame.hit_rows_per_edge = static_cast<float>(hits.rows_per_metre() * options.resolution);
+  frame.free = fixed_log_odds(options.sensor.free);
+  frame.lowest = fixed_log_odds(options.least_certain);
+  frame.highest = fixed_log_odds(options.most_certain);
+  frame.occupied_above = fixed_log_odds(options.occupied_above);
+  frame.max_weight =
+      static_cast<float>(std::min(options.max_weight / static_cast<double>(kWeightUnit), 65535.0));
+  frame.intensity_rate = static_cast<float>(options.intensity_rate);
+  frame.carve = options.carve;
+  return frame;
+}
+
+// Centre of a block's voxel (0,0,0), in voxel edges.
+Eigen::Vector3d first_voxel(const BlockKey& key) {
+  return kBlockEdge * Eigen::Vector3d(key.x, key.y, key.z) + Eigen::Vector3d::Constant(0.5);
+}
+
+}  // namespace
+
+VoxelMap::VoxelMap(const VoxelMapOptions& options)
+    : options_(options), hits_(options.sensor, options.resolution, options.max_range) {
+  CV_Assert(options.resolution > 0 && options.max_range > 0 && options.sensor.noise > 0);
+  grid_.resolution = options.resolution;
+  grid_.occupied_above = fixed_log_odds(options.occupied_above);
+}
+
+void VoxelMap::insert(const cv::Mat& depth, const cv::Mat& intensity, const cv::Mat& trust,
+                      const Camera& camera, const Pose& world_from_camera) {
+  CV_Assert(!camera.has_distortion() && camera.width >= 2 && camera.height >= 2);
+  CV_Assert(intensity.empty() ||
+            (intensity.type() == CV_32FC1 && intensity.size() == depth.size()));
+  const DepthPlanes planes = depth_planes(depth, trust, options_.min_trust, camera,
+                                          options_.max_range, options_.resolution);
+  const Pose camera_from_world = world_from_camera.inverse();
+  const cv::Mat packed = intensity.isContinuous() ? intensity : intensity.clone();
+  const FrameEvidence frame =
+      frame_evidence(options_, hits_, planes, packed, camera, camera_from_world);
+
+  const std::vector<BlockKey> banded =
+      band_blocks(planes, camera, world_from_camera, options_.sensor, options_.resolution);
+  update(banded, frame, camera_from_world);
+  if (options_.carve) {
+    update(known_in_front(banded, planes, camera, camera_from_world), frame, camera_from_world);
+  }
+  if (grid_.blocks.block_count() > options_.max_blocks) {
+    // A tenth more than needed, so that this happens rarely.
+    const auto dropped = grid_.blocks.shrink(options_.max_blocks - options_.max_blocks / 10);
+    changed_.insert(changed_.end(), dropped.begin(), dropped.end());
+  }
+}
+
+void VoxelMap::update(const std::vector<BlockKey>& keys, const FrameEvidence& frame,
+                      const Pose& camera_from_world) {
+  const Eigen::Matrix3d rotation = camera_from_world.rotation_matrix();
+  const Eigen::Vector3d translation = camera_from_world.translation() / options_.resolution;
+  for (const BlockKey& key : keys) {
+    const Eigen::Vector3f origin = (rotation * first_voxel(key) + translation).cast<float>();
+    const float at[3] = {origin.x(), origin.y(), origin.z()};
+    const std::shared_ptr<Block> block = grid_.blocks.edit(key);
+    if (!update_block(*block, at, frame)) continue;
+    grid_.blocks.put(key, block);
+    changed_.push_back(key);
+  }
+}
+
+std::vector<BlockKey> VoxelMap::known_in_front(const std::vector<BlockKey>& banded,
+                                               const DepthPlanes& planes, const Camera& camera,
+                                               const Pose& camera_from_world) const {
+  const double block_edge = kBlockEdge * options_.resolution;
+  const double block_radius = std::sqrt(0.75) * block_edge;
+  const double region_radius = kRegionEdge * block_radius;
+  const double slope_x = std::max(camera.cx + 0.5, camera.width - 0.5 - camera.cx) / camera.fx;
+  const double slope_y = std::max(camera.cy + 0.5, camera.height - 0.5 - camera.cy) / camera.fy;
+  const auto outside = [](double across, double z, double slope, double radius) {
+    return std::abs(across) > slope * z + radius * std::sqrt(1 + slope * slope);
+  };
+  const auto centre_in_camera = [&](const BlockKey& key, double edge) -> Eigen::Vector3d {
+    return camera_from_world *
+           (edge * (Eigen::Vector3d(key.x, key.y, key.z).array() + 0.5)).matrix();
+  };
+  // Whether the depth seen through a block's centre is far behind it.
+  const auto in_front = [&](const Eigen::Vector3d& centre) {
+    const auto pixel = project(camera, centre);
+    if (!pixel || !camera.contains(*pixel)) return false;
+    const PixelPlane& plane = planes.at(static_cast<int>(std::lround(pixel->x())),
+                                        static_cast<int>(std::lround(pixel->y())));
+    const double slope = along(plane, centre);
+    if (!(slope > 0)) return false;
+    const double depth =
+        static_cast<double>(plane.distance) * options_.resolution * centre.z() / slope;
+    return depth - centre.z() > block_radius;
+  };
+
+  std::vector<BlockKey> found;
+  grid_.blocks.for_each_region([&](const BlockKey& key, const Region& region) {
+    if (region.occupied == 0) return;
+    const Eigen::Vector3d centre = centre_in_camera(key, kRegionEdge * block_edge);
+    if (centre.z() < -region_radius || outside(centre.x(), centre.z(), slope_x, region_radius) ||
+        outside(centre.y(), centre.z(), slope_y, region_radius)) {
+      return;
+    }
+    for (std::uint64_t rest = region.occupied; rest != 0; rest &= rest - 1) {
+      const BlockKey block = BlockTable::block_at(key, std::countr_zero(rest));
+      if (in_front(centre_in_camera(block, block_edge))) found.push_back(block);
+    }
+  });
+  std::sort(found.begin(), found.end());
+  std::vector<BlockKey> rest;
+  std::set_difference(found.begin(), found.end(), banded.begin(), banded.end(),
+                      std::back_inserter(rest));
+  return rest;
+}
+
+VoxelGrid VoxelMap::snapshot() {
+  grid_.blocks.share();
+  return grid_;
+}
+
+std::vector<BlockKey> VoxelMap::take_changed() {
+  std::vector<BlockKey> changed;
+  changed.swap(changed_);
+  std::sort(changed.begin(), changed.end());
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  return changed;
+}
+
+void VoxelMap::put(const BlockKey& key, const Block& block) {
+  const std::shared_ptr<Block> target = grid_.blocks.edit(key);
+  const std::uint64_t epoch = target->epoch;
+  *target = block;
+  target->epoch = epoch;
+  target->occupied = std::any_of(std::begin(block.log_odds), std::end(block.log_odds),
+                                 [&](std::int16_t v) { return v > grid_.occupied_above; });
+  grid_.blocks.put(key, target);
+  changed_.push_back(key);
+}
+
+}  // namespace armsreach::mapping

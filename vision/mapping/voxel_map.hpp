@@ -1,0 +1,73 @@
+// The dense map: occupancy, signed distance and intensity in voxels, grown frame by frame.
+//
+// Occupancy follows Damen et al. (see sensor_model.hpp) and decides what is surface; the signed
+// distance beside it places that surface below the voxel. Poses are the pinhole camera's the images
+// belong to.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <opencv2/core/mat.hpp>
+
+#include "vision/core/camera.hpp"
+#include "vision/core/pose.hpp"
+#include "vision/mapping/sensor_model.hpp"
+#include "vision/mapping/voxel_grid.hpp"
+
+namespace armsreach::mapping {
+
+struct DepthPlanes;
+struct FrameEvidence;
+
+struct VoxelMapOptions {
+  double resolution = 0.01;  // edge of a voxel, m
+  SensorModel sensor;
+  double max_range = 8;           // m; measurements beyond say nothing
+  double min_trust = 0.1;         // least weight of a pixel that may touch the map
+  double occupied_above = 0.51;   // probability
+  double least_certain = 0.1192;  // clamps of the accumulated probability: OctoMap's, so that what
+  double most_certain = 0.971;    // was carried away is forgotten within ten frames
+  double max_weight = 100;        // frontal observations from 1 m that the distance remembers
+  double intensity_rate = 0.1;    // least share a new intensity has in the mean
+  bool carve = true;              // also clear known voxels far in front of what is seen now
+  // Memory bound: 4.2 kB a block; mapped surface takes about 1.5 MB a square metre at 1 cm. Beyond
+  // it the regions that were seen longest ago are forgotten.
+  std::size_t max_blocks = 60'000;
+};
+
+class VoxelMap {
+ public:
+  explicit VoxelMap(const VoxelMapOptions& options);
+
+  // Depth (CV_32F metres along z, NaN unknown) and intensity (CV_32F 0..1, NaN unknown; may be
+  // empty) of a pinhole camera. `trust` (CV_32F, may be empty): pixels below min_trust are left
+  // out, NaN was not judged and is let in.
+  void insert(const cv::Mat& depth, const cv::Mat& intensity, const cv::Mat& trust,
+              const Camera& camera, const Pose& world_from_camera);
+
+  const VoxelMapOptions& options() const { return options_; }
+  const VoxelGrid& grid() const { return grid_; }
+
+  // An immutable copy that shares its blocks with the map.
+  VoxelGrid snapshot();
+  // Blocks written or dropped since the last call; sorted.
+  std::vector<BlockKey> take_changed();
+
+  // For codecs: takes over a block as it was stored.
+  void put(const BlockKey& key, const Block& block);
+
+ private:
+  void update(const std::vector<BlockKey>& keys, const FrameEvidence& frame,
+              const Pose& camera_from_world);
+  std::vector<BlockKey> known_in_front(const std::vector<BlockKey>& banded,
+                                       const DepthPlanes& planes, const Camera& camera,
+                                       const Pose& camera_from_world) const;
+
+  VoxelMapOptions options_;
+  VoxelGrid grid_;
+  HitTable hits_;
+  std::vector<BlockKey> changed_;
+};
+
+}  // namespace armsreach::mapping
