@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include <opencv2/core/mat.hpp>
 
@@ -16,8 +17,8 @@ Result<cv::Mat> read_color_image(const std::filesystem::path& file);
 // 16-bit single-channel file to CV_32F metres. 0 and the saturated 65535 are unknown: NaN.
 Result<cv::Mat> read_depth_image(const std::filesystem::path& file, double units_per_metre);
 
-// That `image` has the camera's size; `kind` ("colour", "depth") is for the error.
-Status check_size(const cv::Mat& image, const Camera& camera, const std::string& kind,
-                  const std::filesystem::path& file);
+// That images have their camera's size; `kind` ("colour", "depth") and `where` are for the error.
+Status check_size(const cv::Size& size, const Camera& camera, const std::string& kind,
+                  const std::string& where);
 
 }  // namespace armsreach

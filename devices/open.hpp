@@ -35,7 +35,7 @@ struct SourceKind {
   std::vector<std::string> option_keys;  // others are refused by name before `open` is called
   bool place_is_path = false;            // of a file or folder, relative to a rig file's folder
   std::function<Result<std::unique_ptr<Source>>(const SourceSpec&, const OpenOptions&)> open;
-  std::function<std::vector<Availability>()> probe;
+  std::function<std::vector<Availability>()> probe;  // at least one line
 };
 
 // tum, images, video, camera.

@@ -51,7 +51,7 @@ class Playback : public Source {
   }
 
   Timestamp played_time() const {
-    if (!turns()) return recording_->time(played_);
+    if (!turns() || played_ < *size_) return recording_->time(played_);
     const Timestamp first = recording_->time(0);
     if (*size_ <= 1) {
       return first +

@@ -63,7 +63,7 @@ class TumRecording : public Recording {
       const fs::path file = folder_ / listed.color.file;
       auto color = read_color_image(file);
       if (!color) return std::move(color).error();
-      const auto fits = check_size(*color, *sensor_->color_camera, "colour", file);
+      const auto fits = check_size(color->size(), *sensor_->color_camera, "colour", file);
       if (!fits) return fits.error();
       frame.color = *color;
     }
@@ -71,7 +71,7 @@ class TumRecording : public Recording {
       const fs::path file = folder_ / listed.depth.file;
       auto depth = read_depth_image(file, sensor_->depth_camera->depth_units_per_metre);
       if (!depth) return std::move(depth).error();
-      const auto fits = check_size(*depth, *sensor_->depth_camera, "depth", file);
+      const auto fits = check_size(depth->size(), *sensor_->depth_camera, "depth", file);
       if (!fits) return fits.error();
       frame.depth = *depth;
     }

@@ -136,6 +136,16 @@ void Texture::upload(const void* pixels, int stride) {
   gl.PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }
 
+void Texture::upload_part(int x, int y, const cv::Mat& image) const {
+  const Gl& gl = handle_.gl();
+  gl.BindTexture(GL_TEXTURE_2D, handle_.id());
+  gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  gl.PixelStorei(GL_UNPACK_ROW_LENGTH, static_cast<GLint>(image.step[0] / image.elemSize()));
+  gl.TexSubImage2D(GL_TEXTURE_2D, 0, x, y, image.cols, image.rows, format_.format, format_.type,
+                   image.data);
+  gl.PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+}
+
 void Texture::bind(int unit) const {
   const Gl& gl = handle_.gl();
   gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));

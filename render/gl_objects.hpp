@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <opencv2/core/mat.hpp>
 
 #include "render/gl.hpp"
 #include "vision/core/result.hpp"
@@ -89,6 +90,8 @@ class Texture {
 
   // Tightly packed rows, or rows `stride` pixels apart.
   void upload(const void* pixels, int stride = 0);
+  // An image of the texture's format into a part of it.
+  void upload_part(int x, int y, const cv::Mat& image) const;
   void bind(int unit) const;
 
   GLuint id() const { return handle_.id(); }

@@ -57,30 +57,38 @@ View view_of(const Camera& camera, const Pose& world_from_camera) {
 }
 
 void letterbox(View& view, int width, int height) {
-  const double scale = std::min(static_cast<double>(width) / view.camera.width,
-                                static_cast<double>(height) / view.camera.height);
-  const Eigen::Vector2d corner(0.5 * (width - scale * view.camera.width),
-                               0.5 * (height - scale * view.camera.height));
-  view.target_scale = scale;
+  const Eigen::Array2d image(view.camera.width, view.camera.height);
+  const Eigen::Array2d target(width, height);
+  const Eigen::Array2d shown = (image * (target / image).minCoeff()).round().max(1);
+  const Eigen::Array2d corner = ((target - shown) / 2).floor();
+  view.target_scale = shown / image;
   // Edges correspond, so centres of first pixels are half a pixel inside on both sides.
-  view.target_offset = corner.array() + 0.5 * scale - 0.5;
+  view.target_offset = corner + 0.5 * view.target_scale.array() - 0.5;
   view.target_width = width;
   view.target_height = height;
+}
+
+Rectangle image_rectangle(const View& view) {
+  const Eigen::Array2d scale = view.target_scale;
+  const Eigen::Array2i corner =
+      (view.target_offset.array() - 0.5 * scale + 0.5).round().cast<int>();
+  const Eigen::Array2i extent =
+      (scale * Eigen::Array2d(view.camera.width, view.camera.height)).round().cast<int>();
+  return {corner.x(), corner.y(), extent.x(), extent.y()};
 }
 
 void set_view(const Program& program, const View& view) {
   const Camera& camera = view.camera;
   const Model model = model_of(view);
   const Eigen::Matrix4f camera_from_world = view.world_from_camera.inverse().matrix().cast<float>();
-  const float scale = static_cast<float>(view.target_scale);
   program.set("view_model", static_cast<int>(model));
   program.set("view_focal_centre",
               Eigen::Vector4d(camera.fx, camera.fy, camera.cx, camera.cy).cast<float>().eval());
-  program.set("view_target_from_pixel",
-              Eigen::Vector4f(scale, scale, static_cast<float>(view.target_offset.x()),
-                              static_cast<float>(view.target_offset.y())));
-  program.set("view_target_size", Eigen::Vector2f(static_cast<float>(view.target_width),
-                                                  static_cast<float>(view.target_height)));
+  Eigen::Vector4d target_from_pixel;
+  target_from_pixel << view.target_scale, view.target_offset;
+  program.set("view_target_from_pixel", target_from_pixel.cast<float>().eval());
+  program.set("target_size", Eigen::Vector2f(static_cast<float>(view.target_width),
+                                             static_cast<float>(view.target_height)));
   program.set("view_near_far",
               Eigen::Vector2f(static_cast<float>(view.near), static_cast<float>(view.far)));
   program.set("view_camera_from_world", camera_from_world);
@@ -101,11 +109,11 @@ std::optional<Eigen::Vector2d> project_to_target(const View& view,
     pixel = project(camera, p);
   }
   if (!pixel) return std::nullopt;
-  return view.target_offset + view.target_scale * *pixel;
+  return view.target_offset + view.target_scale.cwiseProduct(*pixel);
 }
 
 Eigen::Vector2d camera_pixel_from_target(const View& view, const Eigen::Vector2d& target_pixel) {
-  return (target_pixel - view.target_offset) / view.target_scale;
+  return (target_pixel - view.target_offset).cwiseQuotient(view.target_scale);
 }
 
 }  // namespace armsreach::render

@@ -15,6 +15,14 @@
 
 namespace armsreach::render {
 
+// Pixels of a target, corner and extent.
+struct Rectangle {
+  int x = 0;
+  int y = 0;
+  int width = 0;
+  int height = 0;
+};
+
 struct View {
   Camera camera;
   Pose world_from_camera;
@@ -22,9 +30,9 @@ struct View {
   double near = 0.02;         // m along z
   double far = 50;
 
-  // target pixel = target_offset + target_scale * camera pixel, both with (0,0) at the centre of
+  // target pixel = target_offset + target_scale .* camera pixel, both with (0,0) at the centre of
   // the first pixel; letterboxing a video is such a map.
-  double target_scale = 1;
+  Eigen::Vector2d target_scale{1, 1};
   Eigen::Vector2d target_offset{0, 0};
   int target_width = 0;  // px
   int target_height = 0;
@@ -33,8 +41,10 @@ struct View {
 // The view of a camera onto a picture of its own size.
 View view_of(const Camera& camera, const Pose& world_from_camera);
 
-// The largest centred copy of the camera's image in a picture of another shape.
+// The largest centred copy of the camera's image in a picture of another shape, on whole pixels.
 void letterbox(View& view, int width, int height);
+// Where the camera's image lies in the target.
+Rectangle image_rectangle(const View& view);
 
 // Sets view.glsl's uniforms of the program in use.
 void set_view(const Program& program, const View& view);

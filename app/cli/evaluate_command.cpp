@@ -1,11 +1,17 @@
 // armsreach evaluate trajectory: how far an estimated trajectory is from the truth.
+#include <cstdio>
+#include <deque>
 #include <fstream>
-#include <iostream>
+#include <memory>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "app/cli/commands.hpp"
+#include "devices/open.hpp"
+#include "vision/core/depth_consistency.hpp"
 #include "vision/core/trajectory.hpp"
 
 namespace armsreach::app {
@@ -15,6 +21,7 @@ struct EvaluateOptions {
   std::string estimate;
   std::string truth;
   bool with_scale = false;
+  std::string recording;
   std::string json;
 };
 
@@ -34,6 +41,41 @@ nlohmann::json json_from_errors(const TrajectoryErrors& e) {
           {"rpe_frame_rotation", e.rpe_frame_rotation},
           {"rpe_second_translation", e.rpe_second_translation},
           {"rpe_second_rotation", e.rpe_second_rotation}};
+}
+
+// Depth of each frame seen from the frame a second later, under the estimated poses: the median of
+// |dz| / z^2 [1/m] over the recording. A property of the trajectory alone, whatever the truth says.
+Result<double> reprojected_depth(const std::string& folder, const Trajectory& trajectory) {
+  constexpr size_t kFramesOn = 30;
+  constexpr int kStep = 8;  // px: 4800 samples a frame
+  auto spec = parse_source_spec("tum:" + folder);
+  if (!spec) return spec.error();
+  auto source = open_source(*spec, {});
+  if (!source) return source.error();
+  if (!(*source)->sensor()->depth_camera) {
+    return Error{"has no depth", folder, "give a recording with depth"};
+  }
+  const Camera& camera = *(*source)->sensor()->depth_camera;
+  std::deque<std::pair<Pose, cv::Mat>> window;
+  std::vector<float> differences;
+  for (;;) {
+    auto frame = (*source)->next();
+    if (!frame) return frame.error();
+    if (!*frame) break;
+    const auto pose = pose_at(trajectory, (*frame)->time);
+    if (!pose || (*frame)->depth.empty()) continue;
+    window.emplace_back(*pose, (*frame)->depth);
+    if (window.size() <= kFramesOn) continue;
+    add_depth_differences(window.front().second, window.back().second, camera,
+                          window.back().first.inverse() * window.front().first, kStep,
+                          &differences);
+    window.pop_front();
+  }
+  if (differences.empty()) {
+    return Error{"fewer than 31 frames have a pose", folder,
+                 "check that the times belong together"};
+  }
+  return static_cast<double>(median(&differences));
 }
 
 void print(const TrajectoryErrors& e) {
@@ -59,9 +101,16 @@ Status evaluate(const EvaluateOptions& options) {
                  options.estimate, "check that both use the recording's times"};
   }
   print(*errors);
+  nlohmann::json json = json_from_errors(*errors);
+  if (!options.recording.empty()) {
+    auto reprojected = reprojected_depth(options.recording, *estimate);
+    if (!reprojected) return reprojected.error();
+    std::printf("depth 30 frames on   %.2e 1/m (median |dz| / z^2)\n", *reprojected);
+    json["reprojected_depth"] = *reprojected;
+  }
   if (options.json.empty()) return ok();
   std::ofstream out(options.json);
-  out << json_from_errors(*errors).dump(2) << "\n";
+  out << json.dump(2) << "\n";
   if (!out.flush()) return Error{"cannot be written", options.json, "check folder and disk"};
   return ok();
 }
@@ -77,6 +126,8 @@ void add_evaluate_command(CLI::App& app, Task* task) {
   trajectory->add_option("--estimate", options->estimate, "trajectory to judge")->required();
   trajectory->add_option("--truth", options->truth, "true trajectory")->required();
   trajectory->add_flag("--scale", options->with_scale, "align with a free scale (Sim3)");
+  trajectory->add_option("--recording", options->recording,
+                         "TUM folder: also reproject its depth 30 frames on");
   trajectory->add_option("--json", options->json, "write the figures here");
   trajectory->callback([task, options] { *task = [options] { return evaluate(*options); }; });
 }

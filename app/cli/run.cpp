@@ -8,6 +8,7 @@
 #include "app/pipelines/presenter.hpp"
 #include "app/pipelines/workspace.hpp"
 #include "app/runtime/event_log.hpp"
+#include "devices/rig_yaml.hpp"
 
 namespace armsreach::app {
 namespace {
@@ -31,18 +32,27 @@ Result<std::optional<CameraFile>> read_camera_file(const std::string& path) {
   return std::optional<CameraFile>(*file);
 }
 
-Result<std::unique_ptr<Source>> open_main_source(const RunOptions& options) {
-  if (options.sources.empty()) {
+Result<std::unique_ptr<Rig>> open_rig(const RunOptions& options) {
+  if (options.sources.empty() && options.rig.empty()) {
     return Error{"no source was given", "--source",
                  "for example --source sim:bench; see `armsreach sources`"};
   }
-  auto spec = parse_source_spec(options.sources.front());
+  auto spec = options.rig.empty() ? rig_from_specs(options.sources) : read_rig_file(options.rig);
   if (!spec) return spec.error();
-  OpenOptions open;
   auto camera = read_camera_file(options.camera);
   if (!camera) return camera.error();
-  open.camera = *camera;
-  return open_source(*spec, open, all_source_kinds());
+  return armsreach::open_rig(*spec, *camera, all_source_kinds());
+}
+
+// The sensor called main, or else the first one that measures depth, or else the first.
+const SensorInfo& main_sensor(const Rig& rig) {
+  const SensorInfo* with_depth = nullptr;
+  for (const RigSensor& sensor : rig.sensors()) {
+    const SensorInfo& info = *sensor.source->sensor();
+    if (info.name == "main") return info;
+    if (info.depth_camera && !with_depth) with_depth = &info;
+  }
+  return with_depth ? *with_depth : *rig.sensors().front().source->sensor();
 }
 
 PresenterOptions presenter_options(const RunOptions& options, const Config& config,
@@ -84,21 +94,23 @@ Status run(const RunOptions& options, const Config& config) {
     return Error{"threads: false is for --pace every-frame", options.config,
                  "remove it, or add --pace every-frame"};
   }
-  auto source = open_main_source(options);
-  if (!source) return source.error();
+  auto rig = open_rig(options);
+  if (!rig) return rig.error();
+  const SensorInfo& sensor = main_sensor(**rig);
 
   EventLog log;
   if (auto status = log.open(options.events); !status) return status;
-  auto presenter = Presenter::make(presenter_options(options, config, *(*source)->sensor()));
+  auto presenter = Presenter::make(presenter_options(options, config, sensor));
   if (!presenter) return presenter.error();
 
   WorkspaceOptions workspace;
+  workspace.sensor = sensor.name;
   workspace.pace = pace;
   workspace.frames = options.frames;
   workspace.trajectory = options.trajectory;
   workspace.stats = options.stats;
   workspace.map = options.map;
-  auto summary = run_workspace(**source, **presenter, log, config, workspace);
+  auto summary = run_workspace(**rig, **presenter, log, config, workspace);
   if (auto status = log.close(); !status) return status;
   if (!summary) return summary.error();
   print_summary(*summary);

@@ -11,12 +11,12 @@ constexpr int kMostBrokenInARow = 30;
 
 }  // namespace
 
-CaptureNode::CaptureNode(Source& source, const Options& options, EventLog& log)
+CaptureNode::CaptureNode(Rig& rig, const Options& options, EventLog& log)
     : Node("capture",
            [this, &log](const std::string& stage, const std::string& what) {
              log.write({last_time_, FaultEvent{stage, what, "see the source's own messages"}});
            }),
-      source_(source),
+      rig_(rig),
       options_(options),
       log_(log) {}
 
@@ -26,7 +26,7 @@ bool CaptureNode::turn() {
     outlet_.close();
     return false;
   }
-  if (options_.pace == Pace::live && !source_.live()) wait_until_due(frame->time);
+  if (options_.pace == Pace::live && !rig_.live()) wait_until_due(frame->time);
   auto stamped = std::make_shared<Frame>(*frame);
   stamped->arrival = std::chrono::steady_clock::now().time_since_epoch().count();
   last_time_ = frame->time;
@@ -43,11 +43,13 @@ FramePtr CaptureNode::next_frame() {
       if (stopped_) return nullptr;
     }
     std::optional<Result<FramePtr>> result;
-    const bool good = guarded([&] { result = source_.next(); });
+    const bool good = guarded([&] { result = rig_.next(); });
     report_source_events();
     if (good && result->ok()) {
       broken_in_a_row_ = 0;
-      return **result;
+      const FramePtr& frame = **result;
+      if (frame && frame->sensor->name != options_.sensor) continue;
+      return frame;
     }
     if (good) {
       const Error& error = result->error();
@@ -67,7 +69,7 @@ FramePtr CaptureNode::next_frame() {
 }
 
 void CaptureNode::report_source_events() {
-  for (const Event& event : source_.take_events()) log_.write(event);
+  for (const Event& event : rig_.take_events()) log_.write(event);
 }
 
 void CaptureNode::wait_until_due(Timestamp time) {
@@ -83,7 +85,7 @@ void CaptureNode::stop() {
     stopped_ = true;
   }
   stopped_changed_.notify_all();
-  source_.stop();
+  rig_.stop();
 }
 
 }  // namespace armsreach::app

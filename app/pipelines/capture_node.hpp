@@ -1,4 +1,4 @@
-// Reads a source frame by frame: as fast as the stages take them, or, live, when a recording's own
+// Reads one sensor of a rig frame by frame: as fast as the stages take them, or, live, when a recording's own
 // time says so.
 #pragma once
 
@@ -8,22 +8,24 @@
 #include <cstdint>
 #include <mutex>
 #include <optional>
+#include <string>
 
 #include "app/runtime/event_log.hpp"
 #include "app/runtime/stage.hpp"
 #include "app/runtime/wiring.hpp"
-#include "devices/source.hpp"
+#include "devices/rig.hpp"
 
 namespace armsreach::app {
 
 class CaptureNode final : public Node {
  public:
   struct Options {
+    std::string sensor = "main";  // frames of others are passed over
     Pace pace = Pace::live;
     std::optional<std::int64_t> frames;  // stop after so many
   };
 
-  CaptureNode(Source& source, const Options& options, EventLog& log);
+  CaptureNode(Rig& rig, const Options& options, EventLog& log);
 
   Outlet<FramePtr>& outlet() { return outlet_; }
   bool turn() override;
@@ -37,7 +39,7 @@ class CaptureNode final : public Node {
   void report_source_events();
   void wait_until_due(Timestamp time);
 
-  Source& source_;
+  Rig& rig_;
   Options options_;
   EventLog& log_;
   Outlet<FramePtr> outlet_;

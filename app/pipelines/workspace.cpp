@@ -33,7 +33,7 @@ constexpr int kUserLag = 2;            // frames from a picture to the click on 
 //              mapping --------+  +--------+
 class Workspace {
  public:
-  Workspace(Source& source, Presenter& presenter, EventLog& log, const Config& config,
+  Workspace(Rig& rig, Presenter& presenter, EventLog& log, const Config& config,
             const WorkspaceOptions& options);
 
   Result<RunSummary> run();
@@ -74,7 +74,7 @@ class Workspace {
   std::unique_ptr<DrawNode> drawing_;
 };
 
-Workspace::Workspace(Source& source, Presenter& presenter, EventLog& log, const Config& config,
+Workspace::Workspace(Rig& rig, Presenter& presenter, EventLog& log, const Config& config,
                      const WorkspaceOptions& options)
     : config_(config),
       options_(options),
@@ -82,7 +82,7 @@ Workspace::Workspace(Source& source, Presenter& presenter, EventLog& log, const 
       wiring_{options.pace, config.threads},
       journal_(log),
       to_journal_(wiring_.queue<TrackedFramePtr>(kJournalLength)),
-      capture_(source, {options.pace, options.frames}, log) {
+      capture_(rig, {options.sensor, options.pace, options.frames}, log) {
   capture_.outlet().connect(frames_);
   join_tracking();
   if (config_.mapping.enabled) join_mapping();
@@ -228,9 +228,9 @@ Status Workspace::first_failure() {
 
 }  // namespace
 
-Result<RunSummary> run_workspace(Source& source, Presenter& presenter, EventLog& log,
+Result<RunSummary> run_workspace(Rig& rig, Presenter& presenter, EventLog& log,
                                  const Config& config, const WorkspaceOptions& options) {
-  return Workspace(source, presenter, log, config, options).run();
+  return Workspace(rig, presenter, log, config, options).run();
 }
 
 }  // namespace armsreach::app

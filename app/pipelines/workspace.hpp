@@ -10,12 +10,13 @@
 #include "app/pipelines/presenter.hpp"
 #include "app/runtime/event_log.hpp"
 #include "app/runtime/wiring.hpp"
-#include "devices/source.hpp"
+#include "devices/rig.hpp"
 #include "vision/core/result.hpp"
 
 namespace armsreach::app {
 
 struct WorkspaceOptions {
+  std::string sensor = "main";  // of the rig, that is tracked and shown
   Pace pace = Pace::live;
   std::optional<std::int64_t> frames;
   std::string trajectory;  // files to write, or ""
@@ -33,7 +34,7 @@ struct RunSummary {
   double latency_p95 = 0;
 };
 
-Result<RunSummary> run_workspace(Source& source, Presenter& presenter, EventLog& log,
+Result<RunSummary> run_workspace(Rig& rig, Presenter& presenter, EventLog& log,
                                  const Config& config, const WorkspaceOptions& options);
 
 }  // namespace armsreach::app

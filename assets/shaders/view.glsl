@@ -1,22 +1,17 @@
-// A view's camera. Camera frame: x right, y down, z forward; pixel (0,0) is a pixel's centre.
+// A view's camera, after target.glsl. Camera frame: x right, y down, z forward; pixel (0,0) is a pixel's centre.
 uniform int view_model;              // 0 pinhole, 1 polynomial, 2 fisheye, 3 monoslam, 4 orthographic
 uniform vec4 view_focal_centre;      // fx fy cx cy [px], px per metre when orthographic
 uniform float view_coefficients[8];  // in OpenCV's order
 uniform float view_max_radius;       // undistorted radius up to which the model is one-to-one
 uniform vec4 view_target_from_pixel; // scale xy, offset xy
-uniform vec2 view_target_size;       // px
 uniform vec2 view_near_far;          // m
 uniform mat4 view_camera_from_world;
 
-// The only place that knows OpenGL's axes. Row 0 of the target is the upper edge of the picture,
-// therefore y is not negated.
 vec4 clip_from_pixel(vec2 pixel, float z, float w) {
-  vec2 target = view_target_from_pixel.zw + view_target_from_pixel.xy * pixel;
-  vec2 ndc = 2.0 * (target + 0.5) / view_target_size - 1.0;
   float n = view_near_far.x;
   float f = view_near_far.y;
-  float clip_z = view_model == 4 ? (2.0 * z - n - f) / (f - n) : ((f + n) * z - 2.0 * f * n) / (f - n);
-  return vec4(ndc * w, clip_z, w);
+  float depth = view_model == 4 ? (2.0 * z - n - f) / (f - n) : (f + n - 2.0 * f * n / w) / (f - n);
+  return clip_from_target(view_target_from_pixel.zw + view_target_from_pixel.xy * pixel, depth, w);
 }
 
 // Normalised coordinates after the lens.
@@ -55,8 +50,8 @@ vec4 clip_from_camera(vec3 point_in_camera) {
   // these vertices: they stay where the undistorted camera puts them.
   float w = p.z;
   if (view_model == 0 || w < view_near_far.x) {
-    float scaled = abs(w) < 1e-6 ? 1e-6 : w;
-    return clip_from_pixel(f * p.xy / scaled + c, w, scaled);
+    if (abs(w) < 1e-6) w = 1e-6;
+    return clip_from_pixel(f * p.xy / w + c, w, w);
   }
   vec2 xy = p.xy / w;
   // Beyond the radius where the model folds back, go on outwards at its last magnification.

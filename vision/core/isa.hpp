@@ -1,5 +1,6 @@
-// Which of the versions of a hot file to call. A file listed with armsreach_isa_levels() is compiled
-// once for each level, its functions in namespace ARMSREACH_ISA; the caller chooses at run time.
+// Which of the versions of a hot file to call. A file listed with armsreach_isa_levels() is
+// compiled once for each level, its functions in namespace ARMSREACH_ISA; the caller chooses at run
+// time.
 #pragma once
 
 namespace armsreach {

@@ -48,11 +48,13 @@ cv::Mat reduced_intensity(const cv::Mat& image, int factor) {
   CV_Assert((image.type() == CV_8UC1 || image.type() == CV_8UC3) && factor >= 1 && factor <= 256);
   const int width = image.cols / factor * factor;
   const PyramidKernels kernels = pyramid_kernels(best_isa());
-  std::vector<std::uint16_t> scratch(width * image.channels());
+  std::vector<std::uint16_t> column_sums(width * image.channels());
+  std::vector<float> grey(width);
   cv::Mat reduced(image.rows / factor, image.cols / factor, CV_32FC1);
   for (int row = 0; row < reduced.rows; ++row) {
     kernels.intensity_row(image.ptr(row * factor), static_cast<int>(image.step), width,
-                          image.channels(), factor, scratch.data(), reduced.ptr<float>(row));
+                          image.channels(), factor, column_sums.data(), grey.data(),
+                          reduced.ptr<float>(row));
   }
   return reduced;
 }

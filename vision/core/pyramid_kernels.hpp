@@ -12,10 +12,10 @@ struct PyramidKernels {
   // means. `scratch` holds 3 * width floats. width >= 16.
   void (*depth_row)(const float* depth, int step, int width, int factor, float* scratch,
                     float* reduced);
-  // The same for 8-bit pixels of 1 or 3 channels, `step` bytes apart. `scratch` holds width *
-  // channels sums; factor <= 256.
+  // The same for 8-bit pixels of 1 or 3 channels, rows `step` bytes apart, to 0..1. `column_sums`
+  // holds width * channels, `grey` width; factor <= 256.
   void (*intensity_row)(const std::uint8_t* image, int step, int width, int channels, int factor,
-                        std::uint16_t* scratch, float* reduced);
+                        std::uint16_t* column_sums, float* grey, float* reduced);
 };
 
 PyramidKernels pyramid_kernels(Isa isa);

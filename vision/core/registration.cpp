@@ -49,8 +49,9 @@ cv::Mat registered_depth(const cv::Mat& depth, const Camera& camera, const Camer
       const auto pixel = project(target, point);
       if (!pixel) continue;
       const double nearer = kStretch * 0.5 * z / point.z();
-      splat(registered, *pixel, {nearer * target.fx / camera.fx, nearer * target.fy / camera.fy},
-            static_cast<float>(point.z()));
+      const Footprint foot{std::max(nearer * target.fx / camera.fx, 0.5),
+                           std::max(nearer * target.fy / camera.fy, 0.5)};
+      splat(registered, *pixel, foot, static_cast<float>(point.z()));
     }
   }
   return registered;

@@ -9,8 +9,8 @@
 namespace armsreach {
 
 // `depth` (CV_32F metres along z, NaN unknown) as `target` would see it; both cameras belong to
-// images of the given sizes. Each sample covers the pixels that lie within half a sample of it; the
-// nearest wins; NaN where nothing falls.
+// images of the given sizes. Each sample covers the pixels that lie within half a sample, or half a
+// pixel, of it; the nearest wins; NaN where nothing falls.
 cv::Mat registered_depth(const cv::Mat& depth, const Camera& camera, const Camera& target,
                          const Pose& target_from_camera);
 

@@ -24,7 +24,6 @@ struct BlockKey {
   auto operator<=>(const BlockKey&) const = default;
 };
 
-// A voxel of a block is at x + 8 y + 64 z.
 struct alignas(32) Block {
   std::int16_t log_odds[kBlockVoxels] = {};    // of being occupied; 0 was never seen
   std::int16_t distance[kBlockVoxels] = {};    // to the surface, positive on its free side
@@ -34,9 +33,20 @@ struct alignas(32) Block {
   bool occupied = false;                       // has a voxel above the occupancy threshold
 };
 
+// Place of a voxel in its block's arrays: x, y, z within the cube, then the cube's x, y, z. The
+// three coordinates' shares simply add up.
+inline constexpr int place_of_x(int x) { return (x & 1) + 4 * (x & 6); }
+inline constexpr int place_of_y(int y) { return 2 * (y & 1) + 16 * (y & 6); }
+inline constexpr int place_of_z(int z) { return 4 * (z & 1) + 64 * (z & 6); }
 inline constexpr int voxel_in_block(int x, int y, int z) {
-  return (x & (kBlockEdge - 1)) + kBlockEdge * (y & (kBlockEdge - 1)) +
-         kBlockEdge * kBlockEdge * (z & (kBlockEdge - 1));
+  return place_of_x(x) + place_of_y(y) + place_of_z(z);
+}
+struct VoxelInBlock {
+  int x, y, z;
+};
+inline constexpr VoxelInBlock voxel_at(int place) {
+  return {(place & 1) + (place >> 2 & 6), (place >> 1 & 1) + (place >> 4 & 6),
+          (place >> 2 & 1) + (place >> 6 & 6)};
 }
 
 inline constexpr BlockKey block_of_voxel(int x, int y, int z) { return {x >> 3, y >> 3, z >> 3}; }

@@ -39,7 +39,12 @@ class March {
         continue;
       }
       const VoxelRef here{sampler_.block(key), voxel_in_block(voxel.x(), voxel.y(), voxel.z())};
-      if (here && here.distance() > kNear) {
+      if (!here) {
+        before_.known = false;
+        t += t_per_edge_;
+        continue;
+      }
+      if (here.distance() > kNear) {
         before_ = {t, here.distance(), true};
         t += t_per_edge_ * std::min(here.distance() - 1, kLargeStep);
         continue;

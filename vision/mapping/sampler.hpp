@@ -56,17 +56,39 @@ class Sampler {
 
   // False when a corner is unknown.
   bool cell(const Eigen::Vector3f& point, Cell& out) {
-    const Eigen::Vector3f low = (point.array() - 0.5F).floor();
-    out.fraction = point.array() - 0.5F - low.array();
-    const Eigen::Vector3i base = low.cast<int>();
-    return corners(base, out.corners);
+    const Eigen::Vector3f shifted = point.array() - 0.5F;
+    const Eigen::Vector3f low(std::floor(shifted.x()), std::floor(shifted.y()),
+                              std::floor(shifted.z()));
+    out.fraction = shifted - low;
+    return corners(
+        {static_cast<int>(low.x()), static_cast<int>(low.y()), static_cast<int>(low.z())},
+        out.corners);
   }
   bool corners(const Eigen::Vector3i& base, std::array<VoxelRef, 8>& out) {
+    const int x = base.x();
+    const int y = base.y();
+    const int z = base.z();
+    // Bit i: the cell reaches into the next block along axis i.
+    constexpr int kLast = kBlockEdge - 1;
+    const int crossing = ((x & kLast) == kLast ? 1 : 0) + ((y & kLast) == kLast ? 2 : 0) +
+                         ((z & kLast) == kLast ? 4 : 0);
+    const int places_x[2] = {place_of_x(x), place_of_x(x + 1)};
+    const int places_y[2] = {place_of_y(y), place_of_y(y + 1)};
+    const int places_z[2] = {place_of_z(z), place_of_z(z + 1)};
+    out[0].block = block(block_of_voxel(x, y, z));
+    if (!out[0].block) return false;
+    bool known = true;
     for (int i = 0; i < 8; ++i) {
-      out[i] = voxel(base.x() + (i & 1), base.y() + (i >> 1 & 1), base.z() + (i >> 2));
-      if (!out[i]) return false;
+      const int owner = i & crossing;  // the first corner in the same block
+      if (owner == i && i != 0) {
+        out[i].block = block(block_of_voxel(x + (i & 1), y + (i >> 1 & 1), z + (i >> 2)));
+        if (!out[i].block) return false;
+      }
+      out[i].block = out[owner].block;
+      out[i].at = places_x[i & 1] + places_y[i >> 1 & 1] + places_z[i >> 2];
+      known &= out[i].block->weight[out[i].at] != 0;
     }
-    return true;
+    return known;
   }
 
  private:

@@ -18,9 +18,12 @@ struct FrameEvidence {
   float fy = 0;
   float cx = 0;
   float cy = 0;
-  float step[3][3] = {};  // one voxel along the world's x, y, z
-  float voxel = 0;        // m
-  float noise = 0;        // sigma = noise * depth^2, in voxel edges
+  float step[3][3] = {};    // one voxel along the world's x, y, z
+  float corner[3][8] = {};  // x, y, z of a 2x2x2 cube's voxels from its first
+  float cube_near = 0;      // least and greatest of corner[2]
+  float cube_far = 0;
+  float voxel = 0;  // m
+  float noise = 0;  // sigma = noise * depth^2, in voxel edges
 
   const std::int16_t* hits = nullptr;  // HitTable
   int hit_rows = 0;
@@ -32,13 +35,25 @@ struct FrameEvidence {
   std::int16_t occupied_above = 0;
   float max_weight = 0;
   float intensity_rate = 0;  // least share of a new intensity
-  // false: only voxels in the band d +- (3 sigma + 3 s). true: voxels in front of it that the block
-  // knows already, too: what stood there is gone.
+  // false: the voxels in the band d +- (3 sigma + 3 s). true: the known voxels in front of it,
+  // where nothing can be any more.
   bool carve = false;
 };
 
-// `origin` is the centre of the block's voxel (0,0,0). False when the frame says nothing about the
-// block, which is then untouched.
-bool update_block(Block& block, const float (&origin)[3], const FrameEvidence& frame);
+// Along z in the camera's frame, in voxel edges; empty when near > far.
+struct DepthInterval {
+  float near = 0;
+  float far = 0;
+};
+
+// One for each octant of a block, 4x4x4 voxels, x fastest.
+struct DepthIntervals {
+  DepthInterval octant[8];
+};
+
+// `origin` is the centre of the block's voxel (0,0,0); voxels outside `depths` are not
+// looked at. False when the frame says nothing about the block, which is then untouched.
+bool update_block(Block& block, const float (&origin)[3], const DepthIntervals& depths,
+                  const FrameEvidence& frame);
 
 }  // namespace armsreach::mapping

@@ -5,18 +5,20 @@
 #include "vision/mapping/update_block.hpp"
 
 namespace armsreach::mapping::ARMSREACH_KERNEL_LEVEL {
-bool update_block(Block& block, const float (&origin)[3], const FrameEvidence& frame);
+bool update_block(Block& block, const float (&origin)[3], const DepthIntervals& depths,
+                  const FrameEvidence& frame);
 
 namespace {
 
-// Eight lanes, a row of voxels along x (vector extension of GCC and Clang).
+// Eight lanes, a 2x2x2 cube of voxels (vector extension of GCC and Clang).
 using Floats = float __attribute__((vector_size(32)));
 using Ints = std::int32_t __attribute__((vector_size(32)));
+using Quad = float __attribute__((vector_size(16)));
 using Shorts = std::int16_t __attribute__((vector_size(16)));
 using Words = std::uint16_t __attribute__((vector_size(16)));
 constexpr int kLanes = 8;
 
-struct Row {
+struct Cube {
   Floats x, y, z;  // of the voxels' centres
   Floats u, v;     // px, +0.5: the pixel is their integer part
   Ints inside;     // the image, as masks
@@ -27,8 +29,9 @@ struct Surface {
   Floats ahead;     // the same along z, on the voxel's ray: d - v_d
   Floats depth;     // d
   Floats sigma;
-  Floats cosine;  // of the angle between ray and normal
+  Floats along;  // the voxel's component along the plane's normal
   Ints known;
+  Ints trusted;
 };
 
 template <class Mask>
@@ -54,47 +57,58 @@ inline void square_root(Floats& a) {
   for (int i = 0; i < kLanes; ++i) a[i] = __builtin_sqrtf(a[i]);
 }
 
-inline bool project_row(Row& row, const float (&start)[3], const FrameEvidence& f) {
-  const Floats lane = {0, 1, 2, 3, 4, 5, 6, 7};
-  row.x = start[0] + lane * f.step[0][0];
-  row.y = start[1] + lane * f.step[0][1];
-  row.z = start[2] + lane * f.step[0][2];
-  const Floats inverse = 1.0F / row.z;
-  row.u = f.fx * row.x * inverse + (f.cx + 0.5F);
-  row.v = f.fy * row.y * inverse + (f.cy + 0.5F);
-  row.inside = (row.z > 1e-3F) & (row.u >= 0.0F) & (row.v >= 0.0F) &
-               (row.u < static_cast<float>(f.width)) & (row.v < static_cast<float>(f.height));
-  return any(row.inside);
+// Eight records of four floats to four vectors of eight.
+inline void transpose(const Quad (&r)[kLanes], Floats (&out)[4]) {
+  const Floats a = __builtin_shufflevector(r[0], r[4], 0, 1, 2, 3, 4, 5, 6, 7);
+  const Floats b = __builtin_shufflevector(r[1], r[5], 0, 1, 2, 3, 4, 5, 6, 7);
+  const Floats c = __builtin_shufflevector(r[2], r[6], 0, 1, 2, 3, 4, 5, 6, 7);
+  const Floats d = __builtin_shufflevector(r[3], r[7], 0, 1, 2, 3, 4, 5, 6, 7);
+  const Floats ab_low = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);
+  const Floats ab_high = __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
+  const Floats cd_low = __builtin_shufflevector(c, d, 0, 8, 1, 9, 4, 12, 5, 13);
+  const Floats cd_high = __builtin_shufflevector(c, d, 2, 10, 3, 11, 6, 14, 7, 15);
+  out[0] = __builtin_shufflevector(ab_low, cd_low, 0, 1, 8, 9, 4, 5, 12, 13);
+  out[1] = __builtin_shufflevector(ab_low, cd_low, 2, 3, 10, 11, 6, 7, 14, 15);
+  out[2] = __builtin_shufflevector(ab_high, cd_high, 0, 1, 8, 9, 4, 5, 12, 13);
+  out[3] = __builtin_shufflevector(ab_high, cd_high, 2, 3, 10, 11, 6, 7, 14, 15);
 }
 
-inline void meet_surface(Surface& s, const Row& row, const FrameEvidence& f) {
+inline bool project_cube(Cube& cube, const float (&start)[3], const FrameEvidence& f) {
+  load(cube.x, f.corner[0]);
+  load(cube.y, f.corner[1]);
+  load(cube.z, f.corner[2]);
+  cube.x += start[0];
+  cube.y += start[1];
+  cube.z += start[2];
+  const Floats inverse = 1.0F / cube.z;
+  cube.u = f.fx * cube.x * inverse + (f.cx + 0.5F);
+  cube.v = f.fy * cube.y * inverse + (f.cy + 0.5F);
+  cube.inside = (cube.z > 1e-3F) & (cube.u >= 0.0F) & (cube.v >= 0.0F) &
+                (cube.u < static_cast<float>(f.width)) & (cube.v < static_cast<float>(f.height));
+  return any(cube.inside);
+}
+
+inline void meet_surface(Surface& s, const Cube& cube, const FrameEvidence& f) {
   Ints pixel =
-      __builtin_convertvector(row.v, Ints) * f.width + __builtin_convertvector(row.u, Ints);
-  pixel = row.inside ? pixel : Ints{} + f.width * f.height;
-  Floats x, y, z, distance;
-  for (int i = 0; i < kLanes; ++i) {
-    const PixelPlane& plane = f.planes[pixel[i]];
-    x[i] = plane.x;
-    y[i] = plane.y;
-    z[i] = plane.z;
-    distance[i] = plane.distance;
-  }
-  const Floats along = x * row.x + y * row.y + z * row.z;
-  s.known = along > 0.0F;
-  s.distance = distance - along;
-  s.ahead = row.z * s.distance / along;
-  s.depth = row.z + s.ahead;
+      __builtin_convertvector(cube.v, Ints) * f.width + __builtin_convertvector(cube.u, Ints);
+  pixel = cube.inside ? pixel : Ints{} + f.width * f.height;
+  static_assert(sizeof(PixelPlane) == sizeof(Quad));
+  Quad planes[kLanes];
+  for (int i = 0; i < kLanes; ++i) load(planes[i], &f.planes[pixel[i]]);
+  Floats plane[4];
+  transpose(planes, plane);
+  s.along = plane[0] * cube.x + plane[1] * cube.y + plane[2] * cube.z;
+  s.known = s.along > 0.0F;
+  s.trusted = plane[3] > 0.0F;
+  s.distance = (s.trusted ? plane[3] : -plane[3]) - s.along;
+  s.ahead = cube.z * s.distance / s.along;
+  s.depth = cube.z + s.ahead;
   s.sigma = f.noise * s.depth * s.depth;
-  Floats range = row.x * row.x + row.y * row.y + row.z * row.z;
-  square_root(range);
-  s.cosine = along / range;
 }
 
 // Occupancy: Damen et al. eq. 5, see sensor_model.hpp.
-inline void add_log_odds(Block& block, int at, const Surface& s, const Ints& banded,
-                         const FrameEvidence& f) {
-  Floats margin = 3.0F * s.sigma;
-  most(margin, Floats{} + 0.5F);
+inline void add_log_odds(Block& block, int at, const Surface& s, const Floats& margin,
+                         const Ints& banded, const FrameEvidence& f) {
   const Floats magnitude = s.ahead < 0.0F ? -s.ahead : s.ahead;
   const Ints hit = banded & (magnitude <= margin);
   const Ints in_front = banded & (s.ahead > margin);
@@ -117,40 +131,57 @@ inline void add_log_odds(Block& block, int at, const Surface& s, const Ints& ban
   store(&block.log_odds[at], __builtin_convertvector(sum, Shorts));
 }
 
-// Bilinear at a pixel; NaN where one of the four around it is unknown.
-inline float intensity_at(const FrameEvidence& f, float u, float v) {
-  const float left = u < 0 ? 0 : u;
-  const float top = v < 0 ? 0 : v;
-  int column = static_cast<int>(left);
-  int line = static_cast<int>(top);
-  column = column > f.width - 2 ? f.width - 2 : column;
-  line = line > f.height - 2 ? f.height - 2 : line;
-  const float a = left - static_cast<float>(column) > 1 ? 1 : left - static_cast<float>(column);
-  const float b = top - static_cast<float>(line) > 1 ? 1 : top - static_cast<float>(line);
-  const float* p = f.intensity + line * f.width + column;
-  const float upper = p[0] + a * (p[1] - p[0]);
-  const float lower = p[f.width] + a * (p[f.width + 1] - p[f.width]);
-  return upper + b * (lower - upper);
+// Bilinear between the four pixels around; NaN where one of them is unknown.
+inline void intensity_at(Floats& out, const Cube& cube, const FrameEvidence& f) {
+  Floats u = cube.u - 0.5F;
+  Floats v = cube.v - 0.5F;
+  most(u, Floats{});
+  most(v, Floats{});
+  least(u, Floats{} + static_cast<float>(f.width - 1));
+  least(v, Floats{} + static_cast<float>(f.height - 1));
+  Ints column = __builtin_convertvector(u, Ints);
+  Ints line = __builtin_convertvector(v, Ints);
+  column = column > f.width - 2 ? Ints{} + (f.width - 2) : column;
+  line = line > f.height - 2 ? Ints{} + (f.height - 2) : line;
+  const Floats a = u - __builtin_convertvector(column, Floats);
+  const Floats b = v - __builtin_convertvector(line, Floats);
+  const Ints at = cube.inside ? line * f.width + column : Ints{};
+  Quad squares[kLanes];
+  for (int i = 0; i < kLanes; ++i) {
+    const float* upper = f.intensity + at[i];
+    std::memcpy(&squares[i], upper, 2 * sizeof(float));
+    std::memcpy(reinterpret_cast<char*>(&squares[i]) + 2 * sizeof(float), upper + f.width,
+                2 * sizeof(float));
+  }
+  Floats p[4];
+  transpose(squares, p);
+  const Floats upper = p[0] + a * (p[1] - p[0]);
+  const Floats lower = p[2] + a * (p[3] - p[2]);
+  out = upper + b * (lower - upper);
 }
 
-inline void add_intensity(Block& block, int at, const Row& row, const Ints& near,
+inline void add_intensity(Block& block, int at, const Cube& cube, const Ints& near,
                           const Floats& share, const FrameEvidence& f) {
-  for (int i = 0; i < kLanes; ++i) {
-    if (!near[i]) continue;
-    const float seen = intensity_at(f, row.u[i] - 0.5F, row.v[i] - 0.5F);
-    if (!(seen >= 0)) continue;
-    const float rate = share[i] > f.intensity_rate ? share[i] : f.intensity_rate;
-    const float stored = static_cast<float>(block.intensity[at + i]);
-    const float top = seen < 1 ? seen * 65535.0F : 65535.0F;
-    block.intensity[at + i] = static_cast<std::uint16_t>(stored + rate * (top - stored) + 0.5F);
-  }
+  Floats seen;
+  intensity_at(seen, cube, f);
+  const Ints valid = near & (seen >= 0.0F);
+  Words stored;
+  load(stored, &block.intensity[at]);
+  const Floats before = __builtin_convertvector(stored, Floats);
+  Floats rate = share;
+  most(rate, Floats{} + f.intensity_rate);
+  least(seen, Floats{} + 1.0F);
+  const Floats mean = before + rate * (seen * (1.0F / kIntensityUnit) - before) + 0.5F;
+  const Ints kept = __builtin_convertvector(stored, Ints);
+  const Ints fresh = __builtin_convertvector(mean, Ints);
+  store(&block.intensity[at], __builtin_convertvector(valid ? fresh : kept, Words));
 }
 
 // Signed distance: running weighted mean (Curless and Levoy, "A volumetric method for building
 // complex models from range images", 1996). The weight falls with the square of the depth and with
 // the slant.
-inline void add_distance(Block& block, int at, const Row& row, const Surface& s, const Ints& valid,
-                         const FrameEvidence& f) {
+inline void add_distance(Block& block, int at, const Cube& cube, const Surface& s,
+                         const Ints& valid, const FrameEvidence& f) {
   Words stored_weight;
   Shorts stored_distance;
   load(stored_weight, &block.weight[at]);
@@ -158,8 +189,10 @@ inline void add_distance(Block& block, int at, const Row& row, const Surface& s,
   Floats weight = __builtin_convertvector(stored_weight, Floats);
   Floats distance = __builtin_convertvector(stored_distance, Floats);
 
+  Floats range = cube.x * cube.x + cube.y * cube.y + cube.z * cube.z;
+  square_root(range);
   const Floats metres = s.depth * f.voxel;
-  Floats gain = s.cosine / (metres * metres) * (1.0F / kWeightUnit);
+  Floats gain = s.along * (1.0F / kWeightUnit) / (range * metres * metres);
   most(gain, Floats{} + 1.0F);
   least(gain, Floats{} + 4.0F / kWeightUnit);
   Floats measured = s.distance;
@@ -179,50 +212,60 @@ inline void add_distance(Block& block, int at, const Row& row, const Surface& s,
   store(&block.weight[at], __builtin_convertvector(valid ? new_weight : old_weight, Words));
   if (!f.intensity) return;
   const Ints near = valid & (s.distance < 2.0F);
-  if (any(near)) add_intensity(block, at, row, near, share, f);
+  if (any(near)) add_intensity(block, at, cube, near, share, f);
 }
 
-inline bool update_row(Block& block, int at, const float (&start)[3], const FrameEvidence& f) {
-  Row row;
-  if (!project_row(row, start, f)) return false;
+inline bool update_cube(Block& block, int at, const float (&start)[3], const FrameEvidence& f) {
+  Cube cube;
+  if (!project_cube(cube, start, f)) return false;
   Surface s;
-  meet_surface(s, row, f);
+  meet_surface(s, cube, f);
   const Floats band = 3.0F + 3.0F * s.sigma;
-  Ints banded = s.known & (s.ahead <= band) & (s.ahead >= -band);
-  if (f.carve) {
-    Words weight;
-    load(weight, &block.weight[at]);
-    banded |= s.known & (s.ahead > band) & (__builtin_convertvector(weight, Ints) > 0);
-  }
+  Floats margin = 3.0F * s.sigma;
+  most(margin, Floats{} + 0.5F);
+  // Behind the margin nothing is said about occupancy: the rest of the band is left alone.
+  Ints banded = s.known & (s.ahead <= band) & (s.ahead >= (s.trusted ? -margin : margin));
   // Interpolation needs all eight voxels around the surface: two edges behind it, however slanted.
   Floats behind = 2.0F * s.sigma;
   most(behind, Floats{} + 2.0F);
-  const Ints valid = s.known & (s.distance >= -behind) & (banded | (s.distance <= 2.0F));
+  Ints valid = s.known & (s.distance >= -behind) & ((s.ahead <= band) | (s.distance <= 2.0F)) &
+               (s.trusted | (s.ahead > margin));
+  if (f.carve) {
+    Words weight;
+    load(weight, &block.weight[at]);
+    banded = s.known & (s.ahead > band) & (__builtin_convertvector(weight, Ints) > 0);
+    valid = banded;
+  }
   if (!any(banded | valid)) return false;
-  add_log_odds(block, at, s, banded, f);
-  add_distance(block, at, row, s, valid, f);
+  if (any(banded)) add_log_odds(block, at, s, margin, banded, f);
+  if (any(valid)) add_distance(block, at, cube, s, valid, f);
   return true;
 }
 
 }  // namespace
 
-bool update_block(Block& block, const float (&origin)[3], const FrameEvidence& frame) {
+bool update_block(Block& block, const float (&origin)[3], const DepthIntervals& depths,
+                  const FrameEvidence& frame) {
   bool changed = false;
-  for (int z = 0; z < kBlockEdge; ++z) {
-    for (int y = 0; y < kBlockEdge; ++y) {
-      float start[3];
-      for (int i = 0; i < 3; ++i) {
-        start[i] = origin[i] + static_cast<float>(y) * frame.step[1][i] +
-                   static_cast<float>(z) * frame.step[2][i];
-      }
-      changed |= update_row(block, voxel_in_block(0, y, z), start, frame);
+  for (int cube = 0; cube < kBlockVoxels / kLanes; ++cube) {
+    const int x = cube & 3;
+    const int y = cube >> 2 & 3;
+    const int z = cube >> 4;
+    const DepthInterval& looked_at = depths.octant[x / 2 + 2 * (y / 2) + 4 * (z / 2)];
+    float start[3];
+    for (int i = 0; i < 3; ++i) {
+      start[i] = origin[i] + static_cast<float>(2 * x) * frame.step[0][i] +
+                 static_cast<float>(2 * y) * frame.step[1][i] +
+                 static_cast<float>(2 * z) * frame.step[2][i];
     }
+    if (start[2] + frame.cube_far < looked_at.near || start[2] + frame.cube_near > looked_at.far) {
+      continue;
+    }
+    changed |= update_cube(block, cube * kLanes, start, frame);
   }
   if (!changed) return false;
   int occupied = 0;
-  for (int i = 0; i < kBlockVoxels; ++i) {
-    occupied |= block.log_odds[i] > frame.occupied_above;
-  }
+  for (int i = 0; i < kBlockVoxels; ++i) occupied |= block.log_odds[i] > frame.occupied_above;
   block.occupied = occupied != 0;
   return true;
 }

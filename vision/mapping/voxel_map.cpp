@@ -6,7 +6,7 @@
 #include <iterator>
 #include <memory>
 
-#include "vision/mapping/band_blocks.hpp"
+#include "vision/mapping/depth_band.hpp"
 #include "vision/mapping/depth_planes.hpp"
 #include "vision/mapping/update_block.hpp"
 
@@ -29,6 +29,15 @@ FrameEvidence frame_evidence(const VoxelMapOptions& options, const HitTable& hit
   for (int axis = 0; axis < 3; ++axis) {
     for (int i = 0; i < 3; ++i) frame.step[axis][i] = static_cast<float>(rotation(i, axis));
   }
+  for (int lane = 0; lane < 8; ++lane) {
+    for (int i = 0; i < 3; ++i) {
+      frame.corner[i][lane] = static_cast<float>(lane & 1) * frame.step[0][i] +
+                              static_cast<float>(lane >> 1 & 1) * frame.step[1][i] +
+                              static_cast<float>(lane >> 2) * frame.step[2][i];
+    }
+  }
+  frame.cube_near = *std::min_element(frame.corner[2], frame.corner[2] + 8);
+  frame.cube_far = *std::max_element(frame.corner[2], frame.corner[2] + 8);
   frame.voxel = static_cast<float>(options.resolution);
   frame.noise = static_cast<float>(options.sensor.noise * options.resolution);
   frame.hits = hits.data();
@@ -41,13 +50,34 @@ FrameEvidence frame_evidence(const VoxelMapOptions& options, const HitTable& hit
   frame.max_weight =
       static_cast<float>(std::min(options.max_weight / static_cast<double>(kWeightUnit), 65535.0));
   frame.intensity_rate = static_cast<float>(options.intensity_rate);
-  frame.carve = options.carve;
   return frame;
 }
 
 // Centre of a block's voxel (0,0,0), in voxel edges.
 Eigen::Vector3d first_voxel(const BlockKey& key) {
   return kBlockEdge * Eigen::Vector3d(key.x, key.y, key.z) + Eigen::Vector3d::Constant(0.5);
+}
+
+// Which depths matter to each octant of a block; false when none does. `first` is the centre of the
+// block's first voxel in the camera's frame, in voxel edges.
+bool look(const DepthBand& band, const Eigen::Vector3f& first, const FrameEvidence& frame,
+          DepthIntervals& depths) {
+  constexpr float kRadius = 0.8660254F * 3;  // around the centres of an octant's voxels
+  const auto step = [&](int axis) {
+    return Eigen::Vector3f(frame.step[axis][0], frame.step[axis][1], frame.step[axis][2]);
+  };
+  const Eigen::Vector3f middle = first + 1.5F * (step(0) + step(1) + step(2));
+  bool any = false;
+  for (int octant = 0; octant < 8; ++octant) {
+    Eigen::Vector3f centre = middle;
+    for (int axis = 0; axis < 3; ++axis) {
+      if ((octant >> axis & 1) != 0) centre += 4.0F * step(axis);
+    }
+    DepthInterval& interval = depths.octant[octant];
+    interval = frame.carve ? band.in_front(centre, kRadius) : band.around(centre, kRadius);
+    any |= centre.z() - kRadius <= interval.far && centre.z() + kRadius >= interval.near;
+  }
+  return any;
 }
 
 }  // namespace
@@ -68,15 +98,15 @@ void VoxelMap::insert(const cv::Mat& depth, const cv::Mat& intensity, const cv::
                                           options_.max_range, options_.resolution);
   const Pose camera_from_world = world_from_camera.inverse();
   const cv::Mat packed = intensity.isContinuous() ? intensity : intensity.clone();
-  const FrameEvidence frame =
-      frame_evidence(options_, hits_, planes, packed, camera, camera_from_world);
+  FrameEvidence frame = frame_evidence(options_, hits_, planes, packed, camera, camera_from_world);
 
-  const std::vector<BlockKey> banded =
-      band_blocks(planes, camera, world_from_camera, options_.sensor, options_.resolution);
-  update(banded, frame, camera_from_world);
-  if (options_.carve) {
-    update(known_in_front(banded, planes, camera, camera_from_world), frame, camera_from_world);
+  const DepthBand band(planes, camera, options_.sensor, options_.resolution);
+  update(band.blocks(world_from_camera), band, frame, camera_from_world);
+  if (options_.carve_every > 0 && insertions_ % options_.carve_every == 0) {
+    frame.carve = true;
+    update(occupied_in_view(camera, camera_from_world), band, frame, camera_from_world);
   }
+  ++insertions_;
   if (grid_.blocks.block_count() > options_.max_blocks) {
     // A tenth more than needed, so that this happens rarely.
     const auto dropped = grid_.blocks.shrink(options_.max_blocks - options_.max_blocks / 10);
@@ -84,66 +114,46 @@ void VoxelMap::insert(const cv::Mat& depth, const cv::Mat& intensity, const cv::
   }
 }
 
-void VoxelMap::update(const std::vector<BlockKey>& keys, const FrameEvidence& frame,
-                      const Pose& camera_from_world) {
+void VoxelMap::update(const std::vector<BlockKey>& keys, const DepthBand& band,
+                      const FrameEvidence& frame, const Pose& camera_from_world) {
   const Eigen::Matrix3d rotation = camera_from_world.rotation_matrix();
   const Eigen::Vector3d translation = camera_from_world.translation() / options_.resolution;
   for (const BlockKey& key : keys) {
     const Eigen::Vector3f origin = (rotation * first_voxel(key) + translation).cast<float>();
-    const float at[3] = {origin.x(), origin.y(), origin.z()};
+    DepthIntervals depths;
+    if (!look(band, origin, frame, depths)) continue;
     const std::shared_ptr<Block> block = grid_.blocks.edit(key);
-    if (!update_block(*block, at, frame)) continue;
+    if (!update_block(*block, {origin.x(), origin.y(), origin.z()}, depths, frame)) continue;
     grid_.blocks.put(key, block);
     changed_.push_back(key);
   }
 }
 
-std::vector<BlockKey> VoxelMap::known_in_front(const std::vector<BlockKey>& banded,
-                                               const DepthPlanes& planes, const Camera& camera,
-                                               const Pose& camera_from_world) const {
-  const double block_edge = kBlockEdge * options_.resolution;
-  const double block_radius = std::sqrt(0.75) * block_edge;
-  const double region_radius = kRegionEdge * block_radius;
+std::vector<BlockKey> VoxelMap::occupied_in_view(const Camera& camera,
+                                                 const Pose& camera_from_world) const {
+  const double region_edge = kRegionEdge * kBlockEdge * options_.resolution;
+  const double radius = std::sqrt(0.75) * region_edge;
   const double slope_x = std::max(camera.cx + 0.5, camera.width - 0.5 - camera.cx) / camera.fx;
   const double slope_y = std::max(camera.cy + 0.5, camera.height - 0.5 - camera.cy) / camera.fy;
-  const auto outside = [](double across, double z, double slope, double radius) {
+  const auto beside = [&](double across, double z, double slope) {
     return std::abs(across) > slope * z + radius * std::sqrt(1 + slope * slope);
   };
-  const auto centre_in_camera = [&](const BlockKey& key, double edge) -> Eigen::Vector3d {
-    return camera_from_world *
-           (edge * (Eigen::Vector3d(key.x, key.y, key.z).array() + 0.5)).matrix();
-  };
-  // Whether the depth seen through a block's centre is far behind it.
-  const auto in_front = [&](const Eigen::Vector3d& centre) {
-    const auto pixel = project(camera, centre);
-    if (!pixel || !camera.contains(*pixel)) return false;
-    const PixelPlane& plane = planes.at(static_cast<int>(std::lround(pixel->x())),
-                                        static_cast<int>(std::lround(pixel->y())));
-    const double slope = along(plane, centre);
-    if (!(slope > 0)) return false;
-    const double depth =
-        static_cast<double>(plane.distance) * options_.resolution * centre.z() / slope;
-    return depth - centre.z() > block_radius;
-  };
-
   std::vector<BlockKey> found;
   grid_.blocks.for_each_region([&](const BlockKey& key, const Region& region) {
     if (region.occupied == 0) return;
-    const Eigen::Vector3d centre = centre_in_camera(key, kRegionEdge * block_edge);
-    if (centre.z() < -region_radius || outside(centre.x(), centre.z(), slope_x, region_radius) ||
-        outside(centre.y(), centre.z(), slope_y, region_radius)) {
+    const Eigen::Vector3d centre =
+        camera_from_world *
+        (region_edge * (Eigen::Vector3d(key.x, key.y, key.z).array() + 0.5)).matrix();
+    if (centre.z() < -radius || beside(centre.x(), centre.z(), slope_x) ||
+        beside(centre.y(), centre.z(), slope_y)) {
       return;
     }
     for (std::uint64_t rest = region.occupied; rest != 0; rest &= rest - 1) {
-      const BlockKey block = BlockTable::block_at(key, std::countr_zero(rest));
-      if (in_front(centre_in_camera(block, block_edge))) found.push_back(block);
+      found.push_back(BlockTable::block_at(key, std::countr_zero(rest)));
     }
   });
   std::sort(found.begin(), found.end());
-  std::vector<BlockKey> rest;
-  std::set_difference(found.begin(), found.end(), banded.begin(), banded.end(),
-                      std::back_inserter(rest));
-  return rest;
+  return found;
 }
 
 VoxelGrid VoxelMap::snapshot() {

@@ -17,20 +17,22 @@
 
 namespace armsreach::mapping {
 
-struct DepthPlanes;
+class DepthBand;
 struct FrameEvidence;
 
 struct VoxelMapOptions {
   double resolution = 0.01;  // edge of a voxel, m
   SensorModel sensor;
   double max_range = 8;           // m; measurements beyond say nothing
-  double min_trust = 0.1;         // least weight of a pixel that may touch the map
+  double min_trust = 0.1;         // least weight of a pixel that may add surface
   double occupied_above = 0.51;   // probability
   double least_certain = 0.1192;  // clamps of the accumulated probability: OctoMap's, so that what
   double most_certain = 0.971;    // was carried away is forgotten within ten frames
   double max_weight = 100;        // frontal observations from 1 m that the distance remembers
   double intensity_rate = 0.1;    // least share a new intensity has in the mean
-  bool carve = true;              // also clear known voxels far in front of what is seen now
+  // Every so many insertions also clear what the map still has in front of the band: things that
+  // were carried away. 0: never.
+  int carve_every = 2;
   // Memory bound: 4.2 kB a block; mapped surface takes about 1.5 MB a square metre at 1 cm. Beyond
   // it the regions that were seen longest ago are forgotten.
   std::size_t max_blocks = 60'000;
@@ -41,8 +43,8 @@ class VoxelMap {
   explicit VoxelMap(const VoxelMapOptions& options);
 
   // Depth (CV_32F metres along z, NaN unknown) and intensity (CV_32F 0..1, NaN unknown; may be
-  // empty) of a pinhole camera. `trust` (CV_32F, may be empty): pixels below min_trust are left
-  // out, NaN was not judged and is let in.
+  // empty) of a pinhole camera. `trust` (CV_32F, may be empty): pixels below min_trust add no
+  // surface, though what lies in front of them is still free; NaN was not judged and is trusted.
   void insert(const cv::Mat& depth, const cv::Mat& intensity, const cv::Mat& trust,
               const Camera& camera, const Pose& world_from_camera);
 
@@ -58,15 +60,14 @@ class VoxelMap {
   void put(const BlockKey& key, const Block& block);
 
  private:
-  void update(const std::vector<BlockKey>& keys, const FrameEvidence& frame,
+  void update(const std::vector<BlockKey>& keys, const DepthBand& band, const FrameEvidence& frame,
               const Pose& camera_from_world);
-  std::vector<BlockKey> known_in_front(const std::vector<BlockKey>& banded,
-                                       const DepthPlanes& planes, const Camera& camera,
-                                       const Pose& camera_from_world) const;
+  std::vector<BlockKey> occupied_in_view(const Camera& camera, const Pose& camera_from_world) const;
 
   VoxelMapOptions options_;
   VoxelGrid grid_;
   HitTable hits_;
+  std::int64_t insertions_ = 0;
   std::vector<BlockKey> changed_;
 };
 

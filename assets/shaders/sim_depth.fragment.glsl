@@ -1,0 +1,4 @@
+in float depth;
+out float depth_out;
+
+void main() { depth_out = depth; }

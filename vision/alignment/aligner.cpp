@@ -1,0 +1,183 @@
+#include "vision/alignment/aligner.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+namespace armsreach {
+namespace {
+
+constexpr double kTukey = 4.685;  // cutoff in deviations; 95 % efficient on normal residuals
+// Quantisation alone leaves this much, so that exact images do not divide by zero.
+constexpr ResidualScales kLeastScales{3e-4, 2e-3};
+constexpr int kScaleSamples = 2048;  // residuals a median is taken of
+constexpr int kLeastResiduals = 64;
+constexpr double kConverged = 2e-6;  // m and rad
+
+using Matrix7d = Eigen::Matrix<double, kUnknowns, kUnknowns>;
+using Vector7d = Eigen::Matrix<double, kUnknowns, 1>;
+
+Planes planes(const Level& level) {
+  const Camera& camera = level.camera();
+  return {level.width(),
+          level.height(),
+          level.stride(),
+          static_cast<float>(camera.fx),
+          static_cast<float>(camera.fy),
+          static_cast<float>(camera.cx),
+          static_cast<float>(camera.cy),
+          level.inverse_depth.data(),
+          level.inverse_depth_x.data(),
+          level.inverse_depth_y.data(),
+          level.intensity.data(),
+          level.intensity_x.data(),
+          level.intensity_y.data()};
+}
+
+Warp warp_from(const Pose& target_from_source, double intensity_offset) {
+  const Eigen::Matrix3f rotation = target_from_source.rotation_matrix().cast<float>();
+  const Eigen::Vector3f translation = target_from_source.translation().cast<float>();
+  Warp warp{};
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) warp.rotation[i][j] = rotation(i, j);
+    warp.translation[i] = translation(i);
+  }
+  warp.intensity_offset = static_cast<float>(intensity_offset);
+  return warp;
+}
+
+int size_of(const Level& level) { return level.stride() * level.height(); }
+
+// The level of a pyramid whose pixels are nearest in size to those of `wanted`.
+const Level& level_like(const Pyramid& pyramid, const Level& wanted) {
+  int best = 0;
+  for (int i = 1; i < pyramid.size(); ++i) {
+    const auto mismatch = [&](int level) {
+      return std::abs(std::log(pyramid[level].camera().fx / wanted.camera().fx));
+    };
+    if (mismatch(i) < mismatch(best)) best = i;
+  }
+  return pyramid[best];
+}
+
+struct Step {
+  Vector6d motion;
+  double intensity_offset;
+  Matrix6d information;
+};
+
+Step solve(const std::array<double, kSums>& sums) {
+  Matrix7d normal;
+  int k = 0;
+  for (int i = 0; i < kUnknowns; ++i) {
+    for (int j = i; j < kUnknowns; ++j) normal(i, j) = normal(j, i) = sums[k++];
+  }
+  const Eigen::Map<const Vector7d> gradient(sums.data() + kTriangle);
+  const Matrix6d information = normal.topLeftCorner<6, 6>();
+  if (!(normal(6, 6) > 0)) normal(6, 6) = 1;  // no intensity at all
+  // Keeps directions that nothing determines where they are.
+  normal.diagonal() *= 1 + 1e-6;
+  const Vector7d step = normal.ldlt().solve(-gradient);
+  return {step.head<6>(), step(6), information};
+}
+
+}  // namespace
+
+AlignKernels align_kernels(Isa isa) {
+#ifdef __x86_64__
+  if (isa == Isa::v4) return v4::kAlignKernels;
+  if (isa == Isa::v3) return v3::kAlignKernels;
+#endif
+  static_cast<void>(isa);
+  return baseline::kAlignKernels;
+}
+
+Residuals Aligner::residuals(const Level& source, const Level& target,
+                             const Pose& target_from_source, double intensity_offset) {
+  const std::size_t size = size_of(source);
+  if (planes_.size() < 9 * size) planes_.resize(9 * size);
+  float* plane = planes_.data();
+  const auto next = [&] { return std::exchange(plane, plane + size); };
+  const Residuals out{next(), next(), next(), next(), next(), next(), next(), next(), next()};
+  kernels_.warp(planes(source), planes(target), warp_from(target_from_source, intensity_offset),
+                out);
+  return out;
+}
+
+ResidualScales Aligner::scales(const Residuals& residuals, int size) {
+  const int stride = size / kScaleSamples | 1;
+  const std::size_t count = size;
+  return {
+      std::max(kLeastScales.depth, robust_scale_({residuals.depth, count}, stride).scale),
+      std::max(kLeastScales.intensity, robust_scale_({residuals.intensity, count}, stride).scale)};
+}
+
+Weighting Aligner::depth_weighting(const ResidualScales& scales) const {
+  return {static_cast<float>(options_.alpha / (scales.depth * scales.depth)),
+          static_cast<float>(kTukey * scales.depth)};
+}
+
+Weighting Aligner::intensity_weighting(const ResidualScales& scales) const {
+  return {static_cast<float>((1 - options_.alpha) / (scales.intensity * scales.intensity)),
+          static_cast<float>(kTukey * scales.intensity)};
+}
+
+bool Aligner::refine(const Level& camera, const Level& reference, int iterations,
+                     Estimate& estimate) {
+  const int size = size_of(reference);
+  for (int i = 0; i < iterations; ++i) {
+    const Residuals found =
+        residuals(reference, camera, estimate.camera_from_reference, estimate.intensity_offset);
+    const ResidualScales spread = scales(found, size);
+    std::array<double, kSums> sums;
+    kernels_.accumulate(found, size, depth_weighting(spread), intensity_weighting(spread),
+                        sums.data());
+    const Step step = solve(sums);
+    if (!step.motion.allFinite()) return false;
+    estimate.camera_from_reference = Pose::exp(step.motion) * estimate.camera_from_reference;
+    estimate.intensity_offset += step.intensity_offset;
+    estimate.information = step.information;
+    if (step.motion.lpNorm<Eigen::Infinity>() < kConverged) break;
+  }
+  return estimate.camera_from_reference.is_finite();
+}
+
+void Aligner::weigh(const Level& camera, const Level& reference, AlignmentResult& result) {
+  const int size = size_of(camera);
+  const Residuals found =
+      residuals(camera, reference, result.reference_from_camera, -result.intensity_offset);
+  result.scales = scales(found, size);
+  float* const weights = found.X;  // no longer needed
+  kernels_.weigh(found, size, depth_weighting(result.scales), intensity_weighting(result.scales),
+                 weights);
+  result.weights.create(camera.height(), camera.width(), CV_32FC1);
+  for (int row = 0; row < camera.height(); ++row) {
+    const float* from = weights + row * camera.stride();
+    std::copy_n(from, camera.width(), result.weights.ptr<float>(row));
+    for (int col = 0; col < camera.width(); ++col) {
+      result.compared += from[col] >= 0 ? 1 : 0;
+      result.inliers += from[col] > 0 ? 1 : 0;
+    }
+  }
+}
+
+AlignmentResult Aligner::align(const Pyramid& camera, const Pyramid& reference, const Pose& start,
+                               double intensity_offset) {
+  Estimate estimate{start.inverse(), intensity_offset, Matrix6d::Zero()};
+  bool ok = true;
+  const int levels = std::min(static_cast<int>(options_.iterations.size()), camera.size());
+  for (int i = levels - 1; ok && i >= 0; --i) {
+    ok = refine(camera[i], level_like(reference, camera[i]), options_.iterations[i], estimate);
+  }
+  AlignmentResult result;
+  result.reference_from_camera = estimate.camera_from_reference.inverse();
+  result.intensity_offset = estimate.intensity_offset;
+  result.information = estimate.information;
+  if (ok) weigh(camera[0], level_like(reference, camera[0]), result);
+  result.ok = ok && result.compared >= kLeastResiduals;
+  return result;
+}
+
+}  // namespace armsreach

@@ -1,0 +1,68 @@
+// One resolution of an image pair, laid out for the aligner.
+//
+// Depth is kept as inverse depth: it is an affine function of the pixel on every plane, so that
+// interpolation and derivatives are exact there, and a sensor whose depth noise is k z^2 has the
+// constant noise k in it. Dividing a depth residual by k z^2 is therefore done by the space itself.
+#pragma once
+
+#include <vector>
+
+#include <opencv2/core/mat.hpp>
+
+#include "vision/core/camera.hpp"
+
+namespace armsreach {
+
+class Level {
+ public:
+  // Rows are padded with NaN to whole blocks of the kernels.
+  static int padded(int width) { return (width + 15) / 16 * 16; }
+
+  // Depth [m] and intensity [0..1], CV_32F with NaN for unknown; either may be empty. `camera` is a
+  // pinhole of their size.
+  void assign(const Camera& camera, const cv::Mat& depth, const cv::Mat& intensity);
+  // Half the finer level's size: inverse depths of a block that lie within 3 % of the nearest, and
+  // known intensities, are averaged.
+  void assign_half(const Level& finer);
+
+  const Camera& camera() const { return camera_; }
+  int width() const { return camera_.width; }
+  int height() const { return camera_.height; }
+  int stride() const { return padded(camera_.width); }
+  bool empty() const { return inverse_depth.empty(); }
+
+  // Planes of stride() x height(), NaN where unknown. Gradients are central differences per pixel;
+  // those of inverse depth are unknown across discontinuities.
+  std::vector<float> inverse_depth;  // 1/m
+  std::vector<float> inverse_depth_x;
+  std::vector<float> inverse_depth_y;
+  std::vector<float> intensity;
+  std::vector<float> intensity_x;
+  std::vector<float> intensity_y;
+
+ private:
+  void resize(const Camera& camera);
+  void differentiate();
+
+  Camera camera_;
+};
+
+// The finest level first, each half the size of the one before. Keeps its memory when reassigned.
+class Pyramid {
+ public:
+  void assign(const Camera& camera, const cv::Mat& depth, const cv::Mat& intensity, int levels) {
+    levels_.resize(levels);
+    levels_[0].assign(camera, depth, intensity);
+    for (int i = 1; i < levels; ++i) levels_[i].assign_half(levels_[i - 1]);
+  }
+  int size() const { return static_cast<int>(levels_.size()); }
+  const Level& operator[](int level) const { return levels_[level]; }
+
+ private:
+  std::vector<Level> levels_;
+};
+
+// Depth that changes by more than this fraction from one pixel to the next is no surface.
+constexpr float kDiscontinuity = 0.02F;
+
+}  // namespace armsreach

@@ -1,0 +1,57 @@
+#include "vision/alignment/verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+namespace armsreach {
+namespace {
+
+constexpr double kLeastCompared = 0.1;  // of all pixels
+constexpr double kLeastInliers = 0.5;   // of those compared
+constexpr double kSurprise = 4;         // times the usual residual
+// Below these no residual is suspicious, above the others none is depth or a picture: k z^2 of the
+// best depth cameras and of none, one grey level and a third of the range.
+constexpr ResidualScales kAlwaysFine{1e-3, 4e-3};
+constexpr ResidualScales kNeverFine{5e-2, 0.3};
+constexpr int kMemory = 30;  // frames over which the usual residuals are averaged
+// Standard deviations of the motion beyond which it is not determined, m and rad. Neighbouring
+// residuals are not independent, which makes true deviations several times larger.
+constexpr double kGreatestDeviation = 0.01;
+
+double surprise(double scale, double usual, double always_fine) {
+  return scale / std::max(usual, always_fine);
+}
+
+}  // namespace
+
+bool Verdict::trusts(const AlignmentResult& alignment, int pixels) const {
+  if (!alignment.ok || alignment.compared < kLeastCompared * pixels ||
+      alignment.inliers < kLeastInliers * alignment.compared) {
+    return false;
+  }
+  if (alignment.scales.depth > kNeverFine.depth ||
+      alignment.scales.intensity > kNeverFine.intensity) {
+    return false;
+  }
+  if (learnt_ > 0 && relative_rms(alignment) > kSurprise) return false;
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(alignment.information,
+                                                      Eigen::EigenvaluesOnly);
+  return eigen.eigenvalues()(0) * kGreatestDeviation * kGreatestDeviation > 1;
+}
+
+double Verdict::relative_rms(const AlignmentResult& alignment) const {
+  const double depth = surprise(alignment.scales.depth, usual_.depth, kAlwaysFine.depth);
+  const double intensity =
+      surprise(alignment.scales.intensity, usual_.intensity, kAlwaysFine.intensity);
+  return std::sqrt(alpha_ * depth * depth + (1 - alpha_) * intensity * intensity);
+}
+
+void Verdict::learn(const AlignmentResult& alignment) {
+  learnt_ = std::min(learnt_ + 1, kMemory);
+  usual_.depth += (alignment.scales.depth - usual_.depth) / learnt_;
+  usual_.intensity += (alignment.scales.intensity - usual_.intensity) / learnt_;
+}
+
+}  // namespace armsreach
