@@ -144,6 +144,7 @@ void Relocaliser::consider(const TrackedFrame& tracked) {
     if (separation(kept->world_from_color, world_from_color, options_) < 1) return;
   }
   auto view = view_of(*tracked.frame, options_.most_features);
+  if (view->depth.empty()) return;
   view->features = with_depth(view->features);
   put(std::make_shared<const KeyFrame>(
       KeyFrame{tracked.frame->index, world_from_color, std::move(*view)}));

@@ -42,6 +42,12 @@ cv::Mat depth_in_color(const Frame& frame, const Camera& color) {
                           sensor.color_from_depth);
 }
 
+// Whether enough is known to judge a pose by.
+bool telling(const cv::Mat& depth) {
+  constexpr int kShare = 20;  // one pixel in so many
+  return cv::countNonZero(depth > 0) * kShare > static_cast<int>(depth.total());
+}
+
 void compare(const View& from, const View& to, const Pose& to_from_from, DepthAgreement& sum) {
   for (int y = 0; y < from.depth.rows; ++y) {
     for (int x = 0; x < from.depth.cols; ++x) {
@@ -75,7 +81,7 @@ std::optional<View> view_of(const Frame& frame, int most_features) {
       find_features(grey_of(frame.color, {color.width, color.height}), depth, color, most_features);
   view.pixel_size = 1 / color.fx;
   view.camera = reduced_camera(color, kSmallerBy);
-  if (!depth.empty()) view.depth = reduced_depth(depth, kSmallerBy);
+  if (!depth.empty() && telling(depth)) view.depth = reduced_depth(depth, kSmallerBy);
   return view;
 }
 

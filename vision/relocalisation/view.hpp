@@ -17,7 +17,7 @@ struct View {
   Features features;
   double pixel_size = 0;  // at distance one, of the image the features were found in
   Camera camera;          // of the small image, lens distortion included
-  cv::Mat depth;          // CV_32F m along z, NaN unknown; empty when the frame has no depth
+  cv::Mat depth;          // CV_32F m along z, NaN unknown; empty when (almost) none is known
 };
 
 // Nothing when the frame has no colour image.
