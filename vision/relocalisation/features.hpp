@@ -2,7 +2,18 @@
 // descriptor.
 //
 // SIFT (Lowe, IJCV 2004) at about 320 pixels' width, its descriptors compared by Hellinger's kernel
-// ("RootSIFT": Arandjelovic, Zisserman, CVPR 2012).
+// ("RootSIFT": Arandjelovic, Zisserman, CVPR 2012). Measured with OpenCV 4.6 against ORB (Rublee et
+// al., ICCV 2011), the rest being the same: pairs of views whose pose was found within 5 cm and
+// 5 deg from features alone, and the milliseconds of finding the features of one image:
+//
+//                    up to 15 cm / 8 deg apart     15-30 / 8-16     30-45 / 16-24     ms
+//   three recordings, pairs            122              229               241
+//   SIFT, 500 at 320x240               98 %             83 %              50 %      16-28
+//   ORB, 500 at 320x240                94 %             75 %              27 %       1-3
+//   ORB, 1000 at 640x480               94 %             76 %              38 %       3-7
+//
+// ORB recalls more per millisecond. SIFT recalls more within the hundred milliseconds there are,
+// and a lost camera that gets no answer gets none from the next frame either, so SIFT it is.
 #pragma once
 
 #include <array>

@@ -33,7 +33,7 @@ struct RelocaliserOptions {
 
   // What a candidate must have. Frames of one recording asked of another's map reach 6 inliers.
   int least_inliers = 10;
-  int least_inliers_without_depth = 20;
+  int least_inliers_without_depth = 15;
   double least_agreement = 0.75;  // share of the surface in both views that agrees
 };
 

@@ -12,7 +12,7 @@
 namespace armsreach::relocalisation {
 namespace {
 
-constexpr int kFeatureWidth = 320;  // px, about: the published size of the method's images
+constexpr int kFeatureWidth = 320;  // px; features.hpp says why
 constexpr int kSmallerBy = 4;       // of the depth image that is kept
 
 cv::Mat grey_of(const cv::Mat& image, cv::Size size) {

@@ -117,7 +117,7 @@ TEST(Kidnaps, FramesOfAnotherPlaceGiveNothing) {
     const Relocaliser relocaliser = map_of_even(recordings[known]);
     for (std::size_t asked = 0; asked < names.size(); ++asked) {
       if (asked == known) continue;
-      for (std::size_t i = 1; i < recordings[asked].size(); i += 4) {
+      for (std::size_t i = 1; i < recordings[asked].size(); i += 8) {
         EXPECT_FALSE(relocaliser.relocalise(*recordings[asked][i]))
             << "frame " << i << " of " << names[asked] << " in " << names[known];
         Frame without_depth = *recordings[asked][i];
