@@ -4,8 +4,6 @@
 #include <filesystem>
 #include <system_error>
 
-#include <opencv2/imgcodecs.hpp>
-
 namespace armsreach::app {
 namespace {
 
@@ -65,8 +63,13 @@ Status Presenter::make_picture_keepers() {
     if (error) return Error{error.message(), options_.screenshots, "give a folder that is yours"};
   }
   if (options_.record.empty()) return ok();
-  auto recorder = render::Recorder::open(
-      options_.record, {options_.width, options_.height, options_.rate, options_.may_drop});
+  render::RecordingOptions recording;
+  recording.file = options_.record;
+  recording.width = options_.width;
+  recording.height = options_.height;
+  recording.rate = options_.rate;
+  recording.pace = options_.may_drop ? render::RecordingPace::live : render::RecordingPace::every_frame;
+  auto recorder = render::Recorder::open(recording);
   if (!recorder) return recorder.error();
   recorder_ = std::move(*recorder);
   return ok();
@@ -103,7 +106,7 @@ void Presenter::add_actions(const render::Scene& scene, UserInput* user) {
 Status Presenter::keep_picture(const render::Scene& scene) {
   const bool due = !options_.screenshots.empty() && scene.frame % options_.screenshot_every == 0;
   if (recorder_) {
-    if (auto status = recorder_->add(renderer_->read_picture()); !status) return status;
+    if (auto status = recorder_->write(renderer_->read_picture()); !status) return status;
   }
   return due ? save_screenshot(scene.frame) : ok();
 }
@@ -113,15 +116,16 @@ Status Presenter::save_screenshot(std::int64_t frame) {
   std::snprintf(name, sizeof name, "frame_%06lld.png", static_cast<long long>(frame));
   const std::string path = (fs::path(options_.screenshots) / name).string();
   last_saved_ = frame;
-  if (cv::imwrite(path, renderer_->read_picture())) return ok();
-  return Error{"cannot be written", path, "check folder and disk", Error::Kind::device};
+  return render::write_png(path, renderer_->read_picture());
 }
 
 Status Presenter::close() {
   if (!options_.screenshots.empty() && last_drawn_ >= 0 && last_drawn_ != last_saved_) {
     if (auto status = save_screenshot(last_drawn_); !status) return status;
   }
-  return recorder_ ? recorder_->close() : ok();
+  if (!recorder_) return ok();
+  auto film = recorder_->close();
+  return film ? ok() : Status(film.error());
 }
 
 bool Presenter::interactive() const {
@@ -130,6 +134,6 @@ bool Presenter::interactive() const {
 bool Presenter::should_close() const { return context_ && context_->should_close(); }
 void Presenter::wait() { context_->wait(); }
 void Presenter::wake() { context_->wake(); }
-std::int64_t Presenter::dropped_film_frames() const { return recorder_ ? recorder_->drops() : 0; }
+std::int64_t Presenter::dropped_film_frames() const { return recorder_ ? recorder_->dropped() : 0; }
 
 }  // namespace armsreach::app
