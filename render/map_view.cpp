@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
+#include <string>
 #include <utility>
 
 #include "render/annotations.hpp"
@@ -94,25 +94,24 @@ void add_trails(Lines& lines, const Scene& scene) {
   }
 }
 
+// A length in round figures, on glass so that it reads on bright surface too.
 void draw_scale_bar(ImDrawList& list, const Fonts& fonts, const View& view,
                     const Rectangle& place) {
   const double px_per_metre = view.camera.fx;
   const double metres = round_length(0.4 * place.width / px_per_metre);
   const float length = static_cast<float>(metres * px_per_metre);
-  const float right = static_cast<float>(place.x + place.width) - 12;
-  const float y = static_cast<float>(place.y + place.height) - 12;
+  const std::string text = metres >= 1 ? std::to_string(std::lround(metres)) + " m"
+                                       : std::to_string(std::lround(100 * metres)) + " cm";
+  const float right = static_cast<float>(place.x + place.width) - 16;
+  const float y = static_cast<float>(place.y + place.height) - 15;
+  list.AddRectFilled({right - length - 8, y - 23}, {right + 8, y + 7}, imgui_color(theme::kGlass),
+                     theme::kSmallRounding);
   const ImU32 color = imgui_color(theme::kInk);
   list.AddLine({right - length, y}, {right, y}, color, 1.5F);
   for (const float x : {right - length, right}) list.AddLine({x, y - 4}, {x, y + 1}, color, 1.5F);
-  std::array<char, 32> text{};
-  if (metres >= 1) {
-    std::snprintf(text.data(), text.size(), "%.0f m", metres);
-  } else {
-    std::snprintf(text.data(), text.size(), "%.0f cm", 100 * metres);
-  }
-  const ImVec2 size = fonts.small->CalcTextSizeA(fonts.small->FontSize, 1e6F, 0, text.data());
-  list.AddText(fonts.small, fonts.small->FontSize, {right - 0.5F * (length + size.x), y - 19},
-               color, text.data());
+  const ImVec2 size = fonts.small->CalcTextSizeA(fonts.small->FontSize, 1e6F, 0, text.c_str());
+  list.AddText(fonts.small, fonts.small->FontSize, {right - 0.5F * (length + size.x), y - 20},
+               color, text.c_str());
 }
 
 }  // namespace
@@ -253,9 +252,8 @@ void MapView::draw_frames(ImDrawList& list, const Fonts& fonts, const Desk& desk
                         : picture.kind == ViewKind::top   ? "Top"
                         : picture.kind == ViewKind::front ? "Front"
                                                           : "Side";
-    list.AddText(fonts.small, fonts.small->FontSize,
-                 {static_cast<float>(place.x) + 12, static_cast<float>(place.y) + 9},
-                 imgui_color(theme::kQuiet), title);
+    draw_pill(list, *fonts.small,
+              {static_cast<float>(place.x) + 8, static_cast<float>(place.y) + 8}, title);
     if (picture.view.orthographic) draw_scale_bar(list, fonts, picture.view, place);
   }
 }

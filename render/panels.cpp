@@ -178,21 +178,21 @@ void draw_header(const Fonts& fonts, const Scene& scene, const Rectangle& place)
       draw_pill(list, *fonts.text, {x, middle - pill_size(*fonts.text, state).y / 2}, state, &color)
           .x;
 
+  // From the right, the most important first, each in a slot of fixed width so that nothing dances.
   const std::array<std::pair<const char*, std::string>, 6> figures{{
-      {"time", fixed(scene.time, 2) + " s"},
-      {"frame", std::to_string(scene.frame)},
-      {"rms", fixed(scene.tracking_rms, 2)},
-      {"inliers", std::to_string(scene.tracking_inliers)},
-      {"rate", fixed(scene.frame_rate, 1) + " Hz"},
       {"latency", fixed(1e3 * scene.latency, 0) + " ms"},
+      {"rate", fixed(scene.frame_rate, 1) + " Hz"},
+      {"inliers", std::to_string(scene.tracking_inliers)},
+      {"rms", fixed(scene.tracking_rms, 2)},
+      {"frame", std::to_string(scene.frame)},
+      {"time", fixed(scene.time, 2) + " s"},
   }};
-  // From the right, each in a slot of fixed width, so that nothing dances.
   const float slot = 124;
-  float at = static_cast<float>(place.x + place.width) - slot * static_cast<float>(figures.size());
+  float at = static_cast<float>(place.x + place.width);
   for (const auto& [name, value] : figures) {
-    const float after = text(*fonts.small, at, theme::kQuiet, name) + 7;
-    text(*fonts.figures, after, theme::kInk, value);
-    at += slot;
+    at -= slot;
+    if (at < x + 12) break;
+    text(*fonts.figures, text(*fonts.small, at, theme::kQuiet, name) + 7, theme::kInk, value);
   }
 }
 

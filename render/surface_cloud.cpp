@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
+#include <cstdlib>
 #include <utility>
 
 namespace armsreach::render {
@@ -12,20 +12,24 @@ namespace {
 
 static_assert(sizeof(SurfacePoint) == 16, "surface points are uploaded as they are");
 
-// Below this many pixels an element's neighbours cover it, and points are left out instead.
-constexpr float kFinestPoint = 2;
+// Elements smaller than this many pixels are drawn as every second, fourth or eighth one, larger.
+constexpr float kFinestPoint = 1.2F;
 
-// The points in an order whose every beginning is spread over the block.
-std::vector<SurfacePoint> spread(const std::vector<SurfacePoint>& points) {
-  const std::size_t n = points.size();
-  std::vector<SurfacePoint> result;
-  result.reserve(n);
-  // Steps of the golden section fall between all earlier ones; the step must not divide n.
-  std::size_t step =
-      std::max<std::size_t>(1, static_cast<std::size_t>(0.618 * static_cast<double>(n)));
-  while (std::gcd(step, n) != 1) ++step;
-  for (std::size_t i = 0, at = 0; i < n; ++i, at = (at + step) % n) result.push_back(points[at]);
-  return result;
+// How often an element may be skipped: 3 when only every eighth element each way is drawn, 0 when
+// all are. Elements are counted on the grid, along the two axes in which the surface extends there.
+int coarsest_level(const SurfacePoint& point, float size) {
+  int across = 0;  // the axis that the surface faces
+  for (int i = 1; i < 3; ++i) {
+    if (std::abs(point.normal[static_cast<std::size_t>(i)]) >
+        std::abs(point.normal[static_cast<std::size_t>(across)]))
+      across = i;
+  }
+  unsigned bits = 1U << (SurfaceCloud::kLevels - 1);
+  for (int i = 0; i < 3; ++i) {
+    if (i != across)
+      bits |= static_cast<unsigned>(static_cast<int>(std::floor(point.point_in_world[i] / size)));
+  }
+  return std::countr_zero(bits);
 }
 
 float px_per_metre(const View& view, float z) {
@@ -118,7 +122,16 @@ void SurfaceCloud::fill(Slot& slot, const SurfaceBlockPtr& block) {
   for (const SurfacePoint& point : block->points) box.extend(point.point_in_world);
   slot.centre = box.center();
   slot.radius = 0.5F * box.diagonal().norm() + block->size;
-  const std::vector<SurfacePoint> points = spread(block->points);
+  // Coarser elements first: each level of detail is a beginning.
+  std::array<std::vector<SurfacePoint>, kLevels> by_level;
+  for (const SurfacePoint& point : block->points)
+    by_level[static_cast<std::size_t>(coarsest_level(point, block->size))].push_back(point);
+  std::vector<SurfacePoint> points;
+  points.reserve(count);
+  for (std::size_t level = kLevels; level-- > 0;) {
+    points.insert(points.end(), by_level[level].begin(), by_level[level].end());
+    slot.counts[level] = static_cast<GLsizei>(points.size());
+  }
   points_.bind(GL_ARRAY_BUFFER);
   gl_->BufferSubData(
       GL_ARRAY_BUFFER,
@@ -146,28 +159,32 @@ std::size_t SurfaceCloud::update(const Surface& surface) {
 void SurfaceCloud::draw(const View& view, const Eigen::Vector3f& light_in_camera) const {
   if (slots_.empty()) return;
   const Eigen::Matrix4f camera_from_world = view.world_from_camera.inverse().matrix().cast<float>();
-  std::vector<GLint> firsts;
-  std::vector<GLsizei> counts;
+  std::array<std::vector<GLint>, kLevels> firsts;
+  std::array<std::vector<GLsizei>, kLevels> counts;
   for (const auto& [key, slot] : slots_) {
     if (slot.block->points.empty()) continue;
     const Eigen::Vector3f centre =
         camera_from_world.topLeftCorner<3, 3>() * slot.centre + camera_from_world.col(3).head<3>();
     if (!seen(view, centre, slot.radius)) continue;
-    const float element = slot.block->size * px_per_metre(view, centre.z() - slot.radius);
-    const float share = std::min(1.F, element * element / (kFinestPoint * kFinestPoint));
-    const float count = std::ceil(share * static_cast<float>(slot.block->points.size()));
-    firsts.push_back(slot.first);
-    counts.push_back(static_cast<GLsizei>(count));
+    float element = slot.block->size * px_per_metre(view, centre.z() - slot.radius);
+    std::size_t level = 0;
+    for (; level + 1 < kLevels && element < kFinestPoint; ++level) element *= 2;
+    firsts[level].push_back(slot.first);
+    // At least one point: small blocks do not vanish, and Mesa 22 loses what follows an empty draw.
+    counts[level].push_back(std::max(slot.counts[level], 1));
   }
   program_.use();
   set_view(program_, view);
-  program_.set("element_size", slots_.begin()->second.block->size);
-  program_.set("finest_point", kFinestPoint);
   program_.set("light_in_camera", light_in_camera);
   array_.bind();
   gl_->Enable(GL_PROGRAM_POINT_SIZE);
-  gl_->MultiDrawArrays(GL_POINTS, firsts.data(), counts.data(),
-                       static_cast<GLsizei>(firsts.size()));
+  const float size = slots_.begin()->second.block->size;
+  for (std::size_t level = 0; level < kLevels; ++level) {
+    if (firsts[level].empty()) continue;
+    program_.set("element_size", size * static_cast<float>(1 << level));
+    gl_->MultiDrawArrays(GL_POINTS, firsts[level].data(), counts[level].data(),
+                         static_cast<GLsizei>(firsts[level].size()));
+  }
   gl_->Disable(GL_PROGRAM_POINT_SIZE);
 }
 

@@ -26,16 +26,18 @@ class SurfaceCloud {
   // `light_in_camera` points towards the light.
   void draw(const View& view, const Eigen::Vector3f& light_in_camera) const;
 
+  static constexpr std::size_t kLevels = 4;  // of detail
+
+ private:
   struct Slot {
     SurfaceBlockPtr block;
     GLint first = 0;
-    std::uint32_t capacity = 0;  // points
+    std::uint32_t capacity = 0;             // points
+    std::array<GLsizei, kLevels> counts{};  // points to draw at each level; all at level 0
     Eigen::Vector3f centre{0, 0, 0};
     float radius = 0;
   };
-  const std::map<std::array<int, 3>, Slot>& slots() const { return slots_; }
 
- private:
   GLint allocate(std::uint32_t capacity);
   void grow(std::uint32_t points);
   void describe_points() const;
