@@ -69,13 +69,17 @@ ARMSREACH_INLINE void warp_lanes(const Planes& source, const Planes& target, con
   const Float X = qx * per_z;
   const Float Y = qy * per_z;
   const Float rho_warped = rho * per_z;
+  // Strictly inside the last cells, so that a cell's right and lower samples exist.
+  const Float last_u = lanes::all(static_cast<float>(target.width - 1) * 0.999999F);
+  const Float last_v = lanes::all(static_cast<float>(target.height - 1) * 0.999999F);
   const Float u = target.fx * X + target.cx;
   const Float v = target.fy * Y + target.cy;
-  const auto inside = (qz > 0.0F) & (u >= 0.0F) & (v >= 0.0F) &
-                      (u < static_cast<float>(target.width - 1)) &
-                      (v < static_cast<float>(target.height - 1)) & (rho > 0.0F);
-  const Int col = __builtin_convertvector(inside ? u : Float{}, Int);
-  const Int row = __builtin_convertvector(inside ? v : Float{}, Int);
+  // An unknown point is NaN in u and v, equal to nothing.
+  const Float u_inside = lanes::min(lanes::max(u, Float{}), last_u);
+  const Float v_inside = lanes::min(lanes::max(v, Float{}), last_v);
+  const auto inside = (u == u_inside) & (v == v_inside) & (qz > 0.0F);
+  const Int col = __builtin_convertvector(u_inside, Int);
+  const Int row = __builtin_convertvector(v_inside, Int);
   const Float fx = u - __builtin_convertvector(col, Float);
   const Float fy = v - __builtin_convertvector(row, Float);
   const Int cell = row * target.stride + col;

@@ -14,7 +14,7 @@ constexpr double kTukey = 4.685;  // cutoff in deviations; 95 % efficient on nor
 constexpr ResidualScales kLeastScales{3e-4, 2e-3};
 constexpr int kScaleSamples = 2048;  // residuals a median is taken of
 constexpr int kLeastResiduals = 64;
-constexpr double kConverged = 2e-6;  // m and rad
+constexpr double kConverged = 1e-3;  // pixels: a smaller step is the last
 
 using Matrix7d = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 using Vector7d = Eigen::Matrix<double, kUnknowns, 1>;
@@ -128,6 +128,7 @@ Weighting Aligner::intensity_weighting(const ResidualScales& scales) const {
 bool Aligner::refine(const Level& camera, const Level& reference, int iterations,
                      Estimate& estimate) {
   const int size = size_of(reference);
+  const double converged = kConverged / camera.camera().fx;  // rad, and m at a distance of 1 m
   for (int i = 0; i < iterations; ++i) {
     const Residuals found =
         residuals(reference, camera, estimate.camera_from_reference, estimate.intensity_offset);
@@ -140,7 +141,7 @@ bool Aligner::refine(const Level& camera, const Level& reference, int iterations
     estimate.camera_from_reference = Pose::exp(step.motion) * estimate.camera_from_reference;
     estimate.intensity_offset += step.intensity_offset;
     estimate.information = step.information;
-    if (step.motion.lpNorm<Eigen::Infinity>() < kConverged) break;
+    if (step.motion.lpNorm<Eigen::Infinity>() < converged) break;
   }
   return estimate.camera_from_reference.is_finite();
 }
