@@ -25,7 +25,7 @@ std::optional<float> distance_at(Sampler& sampler, std::int16_t occupied_above,
       for (int x = -kReach; x <= kReach; ++x) {
         const VoxelRef ref = sampler.voxel(voxel.x() + x, voxel.y() + y, voxel.z() + z);
         if (!ref.block) continue;
-        const std::int16_t value = ref.block->log_odds[ref.at];
+        const std::int16_t value = ref.block->log_odds(ref.at);
         const Eigen::Vector3f offset(static_cast<float>(x), static_cast<float>(y),
                                      static_cast<float>(z));
         if (value > occupied_above) {
@@ -72,8 +72,8 @@ void estimate_distances(VoxelMap& map) {
                                   kBlockEdge * key.z + offset.z);
       const auto distance = distance_at(sampler, source.occupied_above, voxel);
       if (!distance) continue;
-      block.distance[at] = static_cast<std::int16_t>(std::lround(*distance / kDistanceUnit));
-      block.weight[at] = kWeight;
+      block.distance(at) = static_cast<std::int16_t>(std::lround(*distance / kDistanceUnit));
+      block.weight(at) = kWeight;
       any = true;
     }
     if (any) map.put(key, block);

@@ -124,8 +124,8 @@ class TreeReader {
       for (int y = 0; y < edge; ++y) {
         for (int x = 0; x < edge; ++x) {
           const int at = voxel_in_block(corner[0] + x, corner[1] + y, corner[2] + z);
-          block.log_odds[at] = value;
-          block.intensity[at] = intensity;
+          block.log_odds(at) = value;
+          block.intensity(at) = intensity;
         }
       }
     }
@@ -167,9 +167,9 @@ std::optional<std::string> read_distances(std::istream& in, std::size_t max_bloc
       const auto intensity = read_value<std::uint16_t>(in);
       if (!intensity) return "the signed distances are cut off";
       if (*at >= kBlockVoxels) return "a block of signed distances is impossible";
-      block.distance[*at] = *distance;
-      block.weight[*at] = *weight;
-      block.intensity[*at] = *intensity;
+      block.distance(*at) = *distance;
+      block.weight(*at) = *weight;
+      block.intensity(*at) = *intensity;
     }
   }
   return std::nullopt;

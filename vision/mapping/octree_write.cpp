@@ -32,15 +32,15 @@ std::vector<Leaf> leaves_of(const VoxelGrid& grid) {
   for (const BlockKey& key : grid.blocks.keys()) {
     const Block& block = *grid.blocks.find(key);
     for (int at = 0; at < kBlockVoxels; ++at) {
-      if (block.log_odds[at] == 0) continue;
+      if (block.log_odds(at) == 0) continue;
       const VoxelInBlock voxel = voxel_at(at);
       const auto coordinate = [](int block_index, int offset) {
         return block_index * kBlockEdge + offset + octree::kKeyOffset;
       };
       leaves.push_back({path_of(coordinate(key.x, voxel.x), coordinate(key.y, voxel.y),
                                 coordinate(key.z, voxel.z)),
-                        static_cast<float>(block.log_odds[at]) * kLogOddsUnit,
-                        static_cast<std::uint8_t>((block.intensity[at] + 128) / 257)});
+                        static_cast<float>(block.log_odds(at)) * kLogOddsUnit,
+                        static_cast<std::uint8_t>((block.intensity(at) + 128) / 257)});
     }
   }
   std::sort(leaves.begin(), leaves.end(),
@@ -101,14 +101,14 @@ void write_distances(std::ostream& out, const VoxelGrid& grid) {
       write_value(out, static_cast<std::int16_t>(coordinate));
     }
     int known = 0;
-    for (const std::uint16_t weight : block.weight) known += weight != 0;
+    for (int at = 0; at < kBlockVoxels; ++at) known += block.weight(at) != 0;
     write_value(out, static_cast<std::uint16_t>(known));
     for (int at = 0; at < kBlockVoxels; ++at) {
-      if (block.weight[at] == 0) continue;
+      if (block.weight(at) == 0) continue;
       write_value(out, static_cast<std::uint16_t>(at));
-      write_value(out, block.distance[at]);
-      write_value(out, block.weight[at]);
-      write_value(out, block.intensity[at]);
+      write_value(out, block.distance(at));
+      write_value(out, block.weight(at));
+      write_value(out, block.intensity(at));
     }
   }
 }

@@ -35,8 +35,8 @@ bool read_signs(const VoxelGrid& grid, const BlockKey& key, Signs& signs) {
       for (int x = 0; x < kPadded; ++x) {
         const Block* block = blocks[(x >> 3) + 2 * (y >> 3) + 4 * (z >> 3)];
         const int at = voxel_in_block(x, y, z);
-        signs[padded(x, y, z)] = !block || block->weight[at] == 0 ? kUnknown
-                                 : block->distance[at] > 0        ? kFree
+        signs[padded(x, y, z)] = !block || block->weight(at) == 0 ? kUnknown
+                                 : block->distance(at) > 0        ? kFree
                                                                   : kBehind;
       }
     }

@@ -20,6 +20,7 @@ struct FrameEvidence {
   float cy = 0;
   float step[3][3] = {};    // one voxel along the world's x, y, z
   float corner[3][8] = {};  // x, y, z of a 2x2x2 cube's voxels from its first
+  float cube[64][3] = {};   // of a block's cubes' first voxels from the block's first
   float cube_near = 0;      // least and greatest of corner[2]
   float cube_far = 0;
   float voxel = 0;  // m

@@ -62,7 +62,6 @@ class VoxelMap {
  private:
   void update(const std::vector<BlockKey>& keys, const DepthBand& band, const FrameEvidence& frame,
               const Pose& camera_from_world);
-  std::vector<BlockKey> occupied_in_view(const Camera& camera, const Pose& camera_from_world) const;
 
   VoxelMapOptions options_;
   VoxelGrid grid_;

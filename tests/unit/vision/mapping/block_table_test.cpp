@@ -11,7 +11,7 @@ namespace {
 
 void write(BlockTable& table, const BlockKey& key, std::int16_t value, bool occupied = true) {
   const std::shared_ptr<Block> block = table.edit(key);
-  block->log_odds[0] = value;
+  block->log_odds(0) = value;
   block->occupied = occupied;
   table.put(key, block);
 }
@@ -45,7 +45,7 @@ TEST(BlockTable, FindsWhatWasPutEverywhereInItsLimits) {
   EXPECT_EQ(table.block_count(), keys.size());
   for (std::size_t i = 0; i < keys.size(); ++i) {
     ASSERT_NE(table.find(keys[i]), nullptr);
-    EXPECT_EQ(table.find(keys[i])->log_odds[0], static_cast<std::int16_t>(i));
+    EXPECT_EQ(table.find(keys[i])->log_odds(0), static_cast<std::int16_t>(i));
   }
   EXPECT_EQ(table.find({1, 2, 3}), nullptr);
   EXPECT_EQ(table.find({edge, 0, 0}), nullptr) << "beyond the limits nothing is found";
@@ -61,9 +61,9 @@ TEST(BlockTable, ASnapshotNeverSeesLaterWrites) {
   table.share();
   write(table, {0, 0, 0}, 100);
   write(table, {50, 0, 0}, 3);
-  EXPECT_EQ(snapshot.find({0, 0, 0})->log_odds[0], 1);
+  EXPECT_EQ(snapshot.find({0, 0, 0})->log_odds(0), 1);
   EXPECT_EQ(snapshot.find({50, 0, 0}), nullptr);
-  EXPECT_EQ(table.find({0, 0, 0})->log_odds[0], 100);
+  EXPECT_EQ(table.find({0, 0, 0})->log_odds(0), 100);
   EXPECT_EQ(snapshot.find({1, 0, 0}), table.find({1, 0, 0})) << "what did not change is shared";
 }
 
@@ -71,9 +71,9 @@ TEST(BlockTable, AnUnfinishedEditChangesNothing) {
   BlockTable table;
   write(table, {0, 0, 0}, 1);
   table.share();
-  table.edit({0, 0, 0})->log_odds[0] = 9;  // not put
-  table.edit({3, 3, 3})->log_odds[0] = 9;
-  EXPECT_EQ(table.find({0, 0, 0})->log_odds[0], 1);
+  table.edit({0, 0, 0})->log_odds(0) = 9;  // not put
+  table.edit({3, 3, 3})->log_odds(0) = 9;
+  EXPECT_EQ(table.find({0, 0, 0})->log_odds(0), 1);
   EXPECT_EQ(table.find({3, 3, 3}), nullptr);
 }
 

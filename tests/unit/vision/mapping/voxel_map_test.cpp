@@ -54,15 +54,15 @@ TEST(VoxelMap, OneFrameOfAWallIsTheSensorModelVoxelByVoxel) {
     const SensorModel& model = options.sensor;
     if (std::abs(d - p.z()) > model.band(d, 0.01) - 1e-4) {
       if (std::abs(d - p.z()) > model.band(d, 0.01) + 1e-4) {
-        EXPECT_EQ(block.log_odds[at], 0);
+        EXPECT_EQ(block.log_odds(at), 0);
       }
       return;
     }
     const double expected = log_odds(model.probability(d, p.z(), 0.01));
     // The table's cells (see HitTable's test); elsewhere the values are exact to the fixed point.
     const bool hit = std::abs(d - p.z()) <= model.margin(d, 0.01);
-    EXPECT_NEAR(value(block.log_odds[at]), expected, hit ? 0.2 : 1e-3) << p.transpose();
-    occupied += block.log_odds[at] > map.grid().occupied_above;
+    EXPECT_NEAR(value(block.log_odds(at)), expected, hit ? 0.2 : 1e-3) << p.transpose();
+    occupied += block.log_odds(at) > map.grid().occupied_above;
     ++compared;
   });
   EXPECT_GT(compared, 50'000);
@@ -77,9 +77,9 @@ TEST(VoxelMap, SignedDistancesOfASlantedWall) {
   int compared = 0;
   for_each_voxel(map.grid(), [&](const Eigen::Vector3i& voxel, const Block& block, int at) {
     const double truth = 1.4 - normal.dot(centre(voxel, 0.01));
-    if (block.weight[at] == 0 || truth > 0.02) return;  // nearer than the truncation
+    if (block.weight(at) == 0 || truth > 0.02) return;  // nearer than the truncation
     worst =
-        std::max(worst, std::abs(static_cast<double>(block.distance[at]) / 1024 * 0.01 - truth));
+        std::max(worst, std::abs(static_cast<double>(block.distance(at)) / 1024 * 0.01 - truth));
     ++compared;
   });
   EXPECT_GT(compared, 30'000);
@@ -105,11 +105,11 @@ TEST(VoxelMap, SameOccupiedVoxelsAsStockUpdatesOfTheSameKeys) {
     // A fresh map holds exactly one frame's updates.
     for_each_voxel(map_of(scene, {pose}, options).grid(),
                    [&](const Eigen::Vector3i& voxel, const Block& block, int at) {
-                     if (block.log_odds[at] == 0) return;
+                     if (block.log_odds(at) == 0) return;
                      const octomap::OcTreeKey key(static_cast<std::uint16_t>(voxel.x() + 32768),
                                                   static_cast<std::uint16_t>(voxel.y() + 32768),
                                                   static_cast<std::uint16_t>(voxel.z() + 32768));
-                     stock.updateNode(key, static_cast<float>(value(block.log_odds[at])), true);
+                     stock.updateNode(key, static_cast<float>(value(block.log_odds(at))), true);
                    });
   }
   const float threshold = static_cast<float>(log_odds(options.occupied_above));
@@ -120,7 +120,7 @@ TEST(VoxelMap, SameOccupiedVoxelsAsStockUpdatesOfTheSameKeys) {
         stock.search(octomap::OcTreeKey(static_cast<std::uint16_t>(voxel.x() + 32768),
                                         static_cast<std::uint16_t>(voxel.y() + 32768),
                                         static_cast<std::uint16_t>(voxel.z() + 32768)));
-    const bool ours = block.log_odds[at] > map.grid().occupied_above;
+    const bool ours = block.log_odds(at) > map.grid().occupied_above;
     const bool theirs = node && node->getLogOdds() > threshold;
     both += ours && theirs;
     either += ours || theirs;
@@ -139,7 +139,7 @@ TEST(VoxelMap, WhatWasCarriedAwayIsForgotten) {
   const auto above_table = [&] {
     int count = 0;
     for_each_voxel(map.grid(), [&](const Eigen::Vector3i& voxel, const Block& block, int at) {
-      count += voxel.z() > 3 && block.log_odds[at] > map.grid().occupied_above;
+      count += voxel.z() > 3 && block.log_odds(at) > map.grid().occupied_above;
     });
     return count;
   };
@@ -158,7 +158,7 @@ TEST(VoxelMap, UntrustedPixelsAddNoSurfaceButStillCarve) {
   const auto occupied_before = [&](double z) {
     int count = 0;
     for_each_voxel(map.grid(), [&](const Eigen::Vector3i& voxel, const Block& block, int at) {
-      count += centre(voxel, 0.01).z() < z && block.log_odds[at] > map.grid().occupied_above;
+      count += centre(voxel, 0.01).z() < z && block.log_odds(at) > map.grid().occupied_above;
     });
     return count;
   };
@@ -186,12 +186,7 @@ TEST(VoxelMap, SnapshotsStayAsTheyWereTaken) {
 
   EXPECT_EQ(snapshot.blocks.keys().size(), copy.size());
   for (const auto& [key, block] : copy) {
-    EXPECT_EQ(
-        std::memcmp(snapshot.blocks.find(key)->log_odds, block.log_odds, sizeof(block.log_odds)),
-        0);
-    EXPECT_EQ(
-        std::memcmp(snapshot.blocks.find(key)->distance, block.distance, sizeof(block.distance)),
-        0);
+    EXPECT_EQ(std::memcmp(snapshot.blocks.find(key)->cubes, block.cubes, sizeof(block.cubes)), 0);
   }
   EXPECT_FALSE(map.take_changed().empty());
   EXPECT_TRUE(map.take_changed().empty());
