@@ -2,6 +2,7 @@
 // devices/sim; both are opened by the same specification text.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -39,5 +40,12 @@ struct SourceSpec {
   std::vector<std::pair<std::string, std::string>> options;
 };
 Result<SourceSpec> parse_source_spec(const std::string& text);
+std::string text_of(const SourceSpec& spec);
+
+// The option's text, or nothing when it was not given.
+std::optional<std::string> option(const SourceSpec& spec, const std::string& key);
+// The option as a number within [low, high]; `fallback` when it was not given.
+Result<double> number_option(const SourceSpec& spec, const std::string& key, double fallback,
+                             double low, double high);
 
 }  // namespace armsreach

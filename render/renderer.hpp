@@ -11,14 +11,12 @@
 
 #include "render/context.hpp"
 #include "render/input.hpp"
+#include "render/mesh.hpp"
 #include "render/scene.hpp"
 #include "vision/core/result.hpp"
 #include "vision/core/world_view.hpp"
 
 namespace armsreach::render {
-
-// Meshes that virtual objects can have: "teapot", "table", "cube", "axes".
-const std::vector<std::string>& mesh_names();
 
 enum class Layout {
   wearer,         // the video fills the picture, letterboxed
@@ -35,26 +33,37 @@ struct ViewClick {
   std::string insert;               // the mesh chosen in the panel; empty: select or highlight
 };
 
+// What the person asked for during one frame.
+struct Requests {
+  std::vector<ViewClick> clicks;  // on the scene
+  bool delete_selected = false;
+};
+
 struct RendererOptions {
   int width = 640;  // px, of the picture
   int height = 480;
   Layout layout = Layout::wearer;
-  int samples = 4;  // MSAA
+  int samples = 4;  // MSAA of virtual objects in the live view
 };
 
+// Renderers of several contexts may exist, but draw from one thread at a time: the panels' library
+// keeps its current context in a global.
 class Renderer {
  public:
   static Result<std::unique_ptr<Renderer>> make(Context& context, const RendererOptions& options);
   virtual ~Renderer() = default;
 
-  // Draws into an offscreen picture and, for a window, onto it. Returns the clicks that this
-  // frame's input made on the scene.
-  virtual std::vector<ViewClick> draw(const Scene& scene, const InputState& input) = 0;
-  virtual void resize(int width, int height) = 0;
-  virtual void set_layout(Layout layout) = 0;
+  // Draws into an offscreen picture and, for a window, onto it. The input's mouse is in pixels of
+  // the picture.
+  virtual Requests draw(const Scene& scene, const InputState& input) = 0;
+  virtual Status resize(int width, int height) = 0;
+  virtual void set_layout(Layout layout) = 0;  // the person may change it as well (Tab)
+  virtual Layout layout() const = 0;
+  virtual void show_inliers(bool shown) = 0;  // tints what the tracker rejects
+  // What could not be had and was replaced, e.g. missing fonts; each once.
+  virtual std::vector<std::string> take_notes() = 0;
 
-  // The last picture, CV_8UC3 BGR, top row first.
-
+  // The last picture, CV_8UC3 BGR, top row first; shared with nobody.
   virtual cv::Mat read_picture() = 0;
 };
 

@@ -33,7 +33,8 @@ struct Cursor {
   std::string caption;
 };
 
-// An inserted thing. Its mesh is one of render::mesh_names(), unit scale, z up, standing on z = 0.
+// An inserted thing. Its mesh is one of render::mesh_names(): at scale 1 of the size of things that
+// stand on a table (the teapot is 15 cm high), z up, standing on z = 0.
 struct VirtualObject {
   std::int64_t id = 0;
   std::string mesh;
@@ -105,6 +106,9 @@ struct Scene {
   std::vector<Label> labels;
   std::vector<Trail> trails;  // the camera's trajectory among them
   SurfacePtr surface;
+  // Against gravity, for the views of the map; zero where nobody knows: then it is guessed from the
+  // surface's normals.
+  Eigen::Vector3d up_in_world{0, 0, 0};
 
   std::string tracking_state;  // "tracking", ...
   double tracking_rms = 0;

@@ -35,6 +35,7 @@ struct Frame {
   cv::Mat depth;  // CV_32F metres along z, NaN unknown; or empty
   std::shared_ptr<const SensorInfo> sensor;
   std::optional<Pose> world_from_camera;  // truth, where the source knows it; never used to track
+  std::int64_t arrival = 0;               // steady-clock ns when it was read; for latencies only
 };
 using FramePtr = std::shared_ptr<const Frame>;
 

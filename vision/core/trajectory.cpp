@@ -123,6 +123,11 @@ void write_tum_pose(std::ostream& out, const TimedPose& pose) {
   out << line.str();
 }
 
+std::optional<Pose> pose_at(const Trajectory& trajectory, Timestamp time) {
+  const TimedPose* nearest = nearest_in_time(trajectory, time);
+  return nearest ? std::optional<Pose>(nearest->world_from_camera) : std::nullopt;
+}
+
 std::optional<TrajectoryErrors> trajectory_errors(const Trajectory& estimate,
                                                   const Trajectory& truth, bool with_scale) {
   const std::vector<Pair> pairs = paired(estimate, truth);

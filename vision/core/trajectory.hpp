@@ -23,6 +23,9 @@ using Trajectory = std::vector<TimedPose>;
 Result<Trajectory> read_tum_trajectory(std::istream& in, const std::string& where);
 void write_tum_pose(std::ostream& out, const TimedPose& pose);
 
+// The pose nearest to a time, within 20 ms. The trajectory is sorted.
+std::optional<Pose> pose_at(const Trajectory& trajectory, Timestamp time);
+
 // Similarity: point_in_truth = scale * rotation * point_in_estimate + translation.
 struct Alignment {
   Pose truth_from_estimate;

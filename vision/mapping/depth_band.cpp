@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "vision/mapping/block_table.hpp"
+#include "vision/mapping/tile_span.hpp"
 
 namespace armsreach::mapping {
 namespace {
@@ -93,7 +94,7 @@ DepthInterval DepthBand::pixel_interval(int u, int v) const {
   const float x = (static_cast<float>(u) - static_cast<float>(camera_.cx)) / fx;
   const float y = (static_cast<float>(v) - static_cast<float>(camera_.cy)) / fy;
   const float along = plane.x * x + plane.y * y + plane.z;
-  const float depth = plane.distance / along;
+  const float depth = std::abs(plane.distance) / along;
   // How far the plane's depth moves within the pixel.
   const float slant = (std::abs(plane.x) / fx + std::abs(plane.y) / fy) / (2 * along);
   const float slack = depth * std::min(slant, 0.2F);
@@ -115,7 +116,7 @@ void DepthBand::add_tile(int column, int row) {
   const std::size_t first = cones_.size();
   for (int v = v0; v < v1; ++v) {
     for (int u = u0; u < u1; ++u) {
-      if (planes_.at(u, v).distance <= 0) continue;
+      if (planes_.at(u, v).distance == 0) continue;
       const DepthInterval depths = pixel_interval(u, v);
       cones_.push_back({static_cast<float>(u), static_cast<float>(v), 1, depths});
       widen(whole, depths);
@@ -170,26 +171,10 @@ std::vector<BlockKey> DepthBand::blocks(const Pose& world_from_camera) const {
 
 template <class F>
 void DepthBand::for_tiles(const Vector3f& centre, float radius, F&& f) const {
-  const float nearest = centre.z() - radius;
-  const float farthest = centre.z() + radius;
-  // First and last tile that a box from -radius to radius around `across` may project into.
-  const auto span = [&](float across, double focal, double middle, int count) {
-    const auto tile = static_cast<float>(tile_);
-    const float scale = static_cast<float>(focal) / tile;
-    const float axis = (static_cast<float>(middle) + 0.5F) / tile;
-    const float low = across - radius;
-    const float high = across + radius;
-    const float first = axis + scale * low / (low < 0 ? nearest : farthest);
-    const float last = axis + scale * high / (high > 0 ? nearest : farthest);
-    const auto most = static_cast<float>(count);
-    return std::pair(static_cast<int>(std::clamp(first, 0.0F, most)),
-                     static_cast<int>(std::clamp(last, -1.0F, most - 1)));
-  };
-  const auto [left, right] = span(centre.x(), camera_.fx, camera_.cx, columns_);
-  const auto [top, bottom] = span(centre.y(), camera_.fy, camera_.cy, rows_);
-  for (int row = top; row <= bottom; ++row) {
+  const TileSpan span = tiles_of_sphere(camera_, tile_, columns_, rows_, centre, radius);
+  for (int row = span.top; row <= span.bottom; ++row) {
     const DepthInterval* line = &tiles_[static_cast<std::size_t>(row) * columns_];
-    for (int column = left; column <= right; ++column) f(line[column]);
+    for (int column = span.left; column <= span.right; ++column) f(line[column]);
   }
 }
 

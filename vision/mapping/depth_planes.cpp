@@ -26,29 +26,23 @@ float slope(float before, float here, float after, float steepest) {
   return has_left ? left : has_right ? right : 0;
 }
 
-cv::Mat inverse_depth(const cv::Mat& depth, const cv::Mat& weights, float min_weight,
-                      float max_range) {
+cv::Mat inverse_depth(const cv::Mat& depth, float max_range) {
   cv::Mat inverse(depth.size(), CV_32FC1);
   for (int v = 0; v < depth.rows; ++v) {
     const float* d = depth.ptr<float>(v);
-    const float* w = weights.empty() ? nullptr : weights.ptr<float>(v);
     float* out = inverse.ptr<float>(v);
-    for (int u = 0; u < depth.cols; ++u) {
-      const bool known = d[u] > 0 && d[u] < max_range && !(w && w[u] < min_weight);
-      out[u] = known ? 1 / d[u] : 0;
-    }
+    for (int u = 0; u < depth.cols; ++u) out[u] = d[u] > 0 && d[u] < max_range ? 1 / d[u] : 0;
   }
   return inverse;
 }
 
 }  // namespace
 
-DepthPlanes depth_planes(const cv::Mat& depth, const cv::Mat& weights, double min_weight,
+DepthPlanes depth_planes(const cv::Mat& depth, const cv::Mat& weights, double min_trust,
                          const Camera& camera, double max_range, double unit) {
   CV_Assert(depth.type() == CV_32FC1 && depth.cols == camera.width && depth.rows == camera.height);
   CV_Assert(weights.empty() || (weights.type() == CV_32FC1 && weights.size() == depth.size()));
-  const cv::Mat inverse =
-      inverse_depth(depth, weights, static_cast<float>(min_weight), static_cast<float>(max_range));
+  const cv::Mat inverse = inverse_depth(depth, static_cast<float>(max_range));
   DepthPlanes out;
   out.width = depth.cols;
   out.height = depth.rows;
@@ -62,6 +56,7 @@ DepthPlanes depth_planes(const cv::Mat& depth, const cv::Mat& weights, double mi
     const float* here = inverse.ptr<float>(v);
     const float* above = v >= step ? inverse.ptr<float>(v - step) : nullptr;
     const float* below = v + step < depth.rows ? inverse.ptr<float>(v + step) : nullptr;
+    const float* weight = weights.empty() ? nullptr : weights.ptr<float>(v);
     const float y = static_cast<float>((v - camera.cy) / camera.fy);
     PixelPlane* line = &out.planes[static_cast<std::size_t>(v) * out.width];
     for (int u = 0; u < depth.cols; ++u) {
@@ -74,7 +69,8 @@ DepthPlanes depth_planes(const cv::Mat& depth, const cv::Mat& weights, double mi
       const float x = static_cast<float>((u - camera.cx) / camera.fx);
       const float c = w - a * x - b * y;
       const float distance = 1 / std::sqrt(a * a + b * b + c * c);
-      line[u] = {a * distance, b * distance, c * distance, distance * scale};
+      const bool trusted = !(weight && weight[u] < static_cast<float>(min_trust));
+      line[u] = {a * distance, b * distance, c * distance, (trusted ? scale : -scale) * distance};
     }
   }
   return out;

@@ -29,9 +29,9 @@ struct DepthPlanes {
 };
 
 // Planes of a depth image (CV_32F metres along z) of a pinhole camera; distances in units of `unit`
-// metres. Depths beyond `max_range` and pixels whose weight (CV_32F, may be empty) is below
-// `min_weight` are unknown; a weight of NaN was not judged and counts as trusted.
-DepthPlanes depth_planes(const cv::Mat& depth, const cv::Mat& weights, double min_weight,
+// metres. Depths beyond `max_range` are unknown. Pixels whose weight (CV_32F, may be empty) is
+// below `min_trust` are not trusted; a weight of NaN was not judged and is.
+DepthPlanes depth_planes(const cv::Mat& depth, const cv::Mat& weights, double min_trust,
                          const Camera& camera, double max_range, double unit);
 
 }  // namespace armsreach::mapping

@@ -4,7 +4,8 @@
 namespace armsreach::mapping {
 
 // Points p of the plane: x p_x + y p_y + z p_z = distance, the normal a unit vector pointing away
-// from the camera. All zero where the depth is unknown.
+// from the camera. All zero where the depth is unknown. A negative distance marks a pixel that is
+// not trusted to add surface: its plane is at -distance, and only the free space in front counts.
 struct PixelPlane {
   float x = 0;
   float y = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "vision/mapping/depth_bounds.hpp"
 #include "vision/mapping/ray_march.hpp"
 
 namespace armsreach::mapping {
@@ -11,13 +12,13 @@ namespace {
 // The surface may have come nearer by this much [m] where the last frame was sure of its depth.
 constexpr float kAhead = 0.05F;
 
-float search_start(const RayCastOptions& options, int u, int v) {
-  const auto near = static_cast<float>(options.near);
-  if (options.expected_depth.empty() || options.weights.empty()) return near;
+// Where the last frame was sure of its depth, the search starts just in front of it.
+float sure_start(const RayCastOptions& options, int u, int v) {
+  if (options.expected_depth.empty() || options.weights.empty()) return 0;
   const float depth = options.expected_depth.at<float>(v, u);
   const float weight = options.weights.at<float>(v, u);
-  if (!(depth > 0) || !(weight > static_cast<float>(options.sure))) return near;
-  return std::max(near, 0.97F * depth - kAhead);
+  if (!(depth > 0) || !(weight > static_cast<float>(options.sure))) return 0;
+  return 0.97F * depth - kAhead;
 }
 
 }  // namespace
@@ -40,13 +41,17 @@ ReferenceView cast(const VoxelGrid& grid, const Camera& camera, const Pose& worl
   MapRay ray;
   ray.origin = (world_from_camera.translation() * per_metre).cast<float>();
   Sampler sampler(grid);
+  const DepthBounds depths(grid, camera, world_from_camera);
+  const auto near = static_cast<float>(options.near);
+  const auto far = static_cast<float>(options.far);
   for (int v = 0; v < camera.height; ++v) {
     const auto y = static_cast<float>((v - camera.cy) / camera.fy);
     for (int u = 0; u < camera.width; ++u) {
       const auto x = static_cast<float>((u - camera.cx) / camera.fx);
       ray.direction = rotation * Eigen::Vector3f(x, y, 1);
-      const auto hit =
-          march(sampler, grid, ray, search_start(options, u, v), static_cast<float>(options.far));
+      const DepthBounds::Interval& bounds = depths.at(u, v);
+      const float from = std::max({near, bounds.near, sure_start(options, u, v)});
+      const auto hit = march(sampler, grid, ray, from, std::min(far, bounds.far));
       if (!hit) continue;
       view.depth.at<float>(v, u) = hit->t;
       view.intensity.at<float>(v, u) = hit->intensity;

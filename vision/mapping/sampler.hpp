@@ -19,9 +19,9 @@ struct VoxelRef {
   const Block* block = nullptr;  // null: nothing is known around here
   int at = 0;
 
-  explicit operator bool() const { return block != nullptr && block->weight[at] != 0; }
-  float distance() const { return static_cast<float>(block->distance[at]) * kDistanceUnit; }
-  float intensity() const { return static_cast<float>(block->intensity[at]) * kIntensityUnit; }
+  explicit operator bool() const { return block != nullptr && block->weight(at) != 0; }
+  float distance() const { return static_cast<float>(block->distance(at)) * kDistanceUnit; }
+  float intensity() const { return static_cast<float>(block->intensity(at)) * kIntensityUnit; }
 };
 
 // The eight voxels around a point and the point's place among them.
@@ -86,7 +86,7 @@ class Sampler {
       }
       out[i].block = out[owner].block;
       out[i].at = places_x[i & 1] + places_y[i >> 1 & 1] + places_z[i >> 2];
-      known &= out[i].block->weight[out[i].at] != 0;
+      known &= out[i].block->weight(out[i].at) != 0;
     }
     return known;
   }
@@ -133,7 +133,7 @@ inline Eigen::Vector3f gradient(const std::array<float, 8>& v, const Eigen::Vect
 // Whether one of the voxels is occupied: the distance alone also keeps what was since cleared.
 inline bool occupied(const std::array<VoxelRef, 8>& corners, std::int16_t above) {
   for (const VoxelRef& corner : corners) {
-    if (corner.block->log_odds[corner.at] > above) return true;
+    if (corner.block->log_odds(corner.at) > above) return true;
   }
   return false;
 }

@@ -20,14 +20,13 @@ struct FrameEvidence {
   float cy = 0;
   float step[3][3] = {};    // one voxel along the world's x, y, z
   float corner[3][8] = {};  // x, y, z of a 2x2x2 cube's voxels from its first
+  float cube[64][3] = {};   // of a block's cubes' first voxels from the block's first
   float cube_near = 0;      // least and greatest of corner[2]
   float cube_far = 0;
   float voxel = 0;  // m
   float noise = 0;  // sigma = noise * depth^2, in voxel edges
 
   const std::int16_t* hits = nullptr;  // HitTable
-  int hit_rows = 0;
-  float hit_rows_per_edge = 0;
 
   std::int16_t free = 0;  // log-odds of what lies in front, and the clamps of their sum
   std::int16_t lowest = 0;

@@ -18,7 +18,7 @@ using Shorts = std::int16_t __attribute__((vector_size(16)));
 using Words = std::uint16_t __attribute__((vector_size(16)));
 constexpr int kLanes = 8;
 
-struct Cube {
+struct Lanes {
   Floats x, y, z;  // of the voxels' centres
   Floats u, v;     // px, +0.5: the pixel is their integer part
   Ints inside;     // the image, as masks
@@ -28,9 +28,11 @@ struct Surface {
   Floats distance;  // from the voxel to its pixel's plane, positive in front
   Floats ahead;     // the same along z, on the voxel's ray: d - v_d
   Floats depth;     // d
-  Floats sigma;
-  Floats along;  // the voxel's component along the plane's normal
+  Floats sigma;     // of d
+  Floats along;     // the voxel's component along the plane's normal
+  Floats per_edge;  // cosine of the slant: an edge across the surface by its extent along z
   Ints known;
+  Ints trusted;
 };
 
 template <class Mask>
@@ -72,67 +74,69 @@ inline void transpose(const Quad (&r)[kLanes], Floats (&out)[4]) {
   out[3] = __builtin_shufflevector(ab_high, cd_high, 2, 3, 10, 11, 6, 7, 14, 15);
 }
 
-inline bool project_cube(Cube& cube, const float (&start)[3], const FrameEvidence& f) {
-  load(cube.x, f.corner[0]);
-  load(cube.y, f.corner[1]);
-  load(cube.z, f.corner[2]);
-  cube.x += start[0];
-  cube.y += start[1];
-  cube.z += start[2];
-  const Floats inverse = 1.0F / cube.z;
-  cube.u = f.fx * cube.x * inverse + (f.cx + 0.5F);
-  cube.v = f.fy * cube.y * inverse + (f.cy + 0.5F);
-  cube.inside = (cube.z > 1e-3F) & (cube.u >= 0.0F) & (cube.v >= 0.0F) &
-                (cube.u < static_cast<float>(f.width)) & (cube.v < static_cast<float>(f.height));
-  return any(cube.inside);
+inline bool project(Lanes& lanes, const float (&start)[3], const FrameEvidence& f) {
+  load(lanes.x, f.corner[0]);
+  load(lanes.y, f.corner[1]);
+  load(lanes.z, f.corner[2]);
+  lanes.x += start[0];
+  lanes.y += start[1];
+  lanes.z += start[2];
+  const Floats inverse = 1.0F / lanes.z;
+  lanes.u = f.fx * lanes.x * inverse + (f.cx + 0.5F);
+  lanes.v = f.fy * lanes.y * inverse + (f.cy + 0.5F);
+  lanes.inside = (lanes.z > 1e-3F) & (lanes.u >= 0.0F) & (lanes.v >= 0.0F) &
+                 (lanes.u < static_cast<float>(f.width)) & (lanes.v < static_cast<float>(f.height));
+  return any(lanes.inside);
 }
 
-inline void meet_surface(Surface& s, const Cube& cube, const FrameEvidence& f) {
+inline void meet_surface(Surface& s, const Lanes& lanes, const FrameEvidence& f) {
   Ints pixel =
-      __builtin_convertvector(cube.v, Ints) * f.width + __builtin_convertvector(cube.u, Ints);
-  pixel = cube.inside ? pixel : Ints{} + f.width * f.height;
+      __builtin_convertvector(lanes.v, Ints) * f.width + __builtin_convertvector(lanes.u, Ints);
+  pixel = lanes.inside ? pixel : Ints{} + f.width * f.height;
   static_assert(sizeof(PixelPlane) == sizeof(Quad));
   Quad planes[kLanes];
   for (int i = 0; i < kLanes; ++i) load(planes[i], &f.planes[pixel[i]]);
   Floats plane[4];
   transpose(planes, plane);
-  s.along = plane[0] * cube.x + plane[1] * cube.y + plane[2] * cube.z;
+  s.along = plane[0] * lanes.x + plane[1] * lanes.y + plane[2] * lanes.z;
   s.known = s.along > 0.0F;
-  s.distance = plane[3] - s.along;
-  s.ahead = cube.z * s.distance / s.along;
-  s.depth = cube.z + s.ahead;
+  s.trusted = plane[3] > 0.0F;
+  s.distance = (s.trusted ? plane[3] : -plane[3]) - s.along;
+  s.per_edge = s.along / lanes.z;
+  s.ahead = s.distance / s.per_edge;
+  s.depth = lanes.z + s.ahead;
   s.sigma = f.noise * s.depth * s.depth;
 }
 
-// Occupancy: Damen et al. eq. 5, see sensor_model.hpp.
-inline void add_log_odds(Block& block, int at, const Surface& s, const Floats& margin,
+// Occupancy: Damen et al. eq. 5, see sensor_model.hpp. `margin` is measured across the surface.
+inline void add_log_odds(VoxelCube& cube, const Surface& s, const Floats& margin,
                          const Ints& banded, const FrameEvidence& f) {
-  const Floats magnitude = s.ahead < 0.0F ? -s.ahead : s.ahead;
+  const Floats magnitude = s.distance < 0.0F ? -s.distance : s.distance;
   const Ints hit = banded & (magnitude <= margin);
-  const Ints in_front = banded & (s.ahead > margin);
+  const Ints in_front = banded & (s.distance > margin);
   Ints change = in_front & (Ints{} + f.free);
   if (any(hit)) {
     Floats column = magnitude / margin * 64.0F;
     least(column, Floats{} + 63.0F);
-    Floats line = s.depth * f.hit_rows_per_edge;
-    least(line, Floats{} + static_cast<float>(f.hit_rows - 1));
+    Floats line = 16.0F / (s.sigma * s.per_edge);
+    least(line, Floats{} + 127.0F);
     Ints entry = __builtin_convertvector(line, Ints) * 64 + __builtin_convertvector(column, Ints);
     entry &= hit;
     for (int i = 0; i < kLanes; ++i) entry[i] = f.hits[entry[i]];
     change |= hit & entry;
   }
   Shorts stored;
-  load(stored, &block.log_odds[at]);
+  load(stored, cube.log_odds);
   Ints sum = __builtin_convertvector(stored, Ints) + change;
   sum = sum > f.highest ? Ints{} + f.highest : sum;
   sum = sum < f.lowest ? Ints{} + f.lowest : sum;
-  store(&block.log_odds[at], __builtin_convertvector(sum, Shorts));
+  store(cube.log_odds, __builtin_convertvector(sum, Shorts));
 }
 
 // Bilinear between the four pixels around; NaN where one of them is unknown.
-inline void intensity_at(Floats& out, const Cube& cube, const FrameEvidence& f) {
-  Floats u = cube.u - 0.5F;
-  Floats v = cube.v - 0.5F;
+inline void intensity_at(Floats& out, const Lanes& lanes, const FrameEvidence& f) {
+  Floats u = lanes.u - 0.5F;
+  Floats v = lanes.v - 0.5F;
   most(u, Floats{});
   most(v, Floats{});
   least(u, Floats{} + static_cast<float>(f.width - 1));
@@ -143,7 +147,7 @@ inline void intensity_at(Floats& out, const Cube& cube, const FrameEvidence& f) 
   line = line > f.height - 2 ? Ints{} + (f.height - 2) : line;
   const Floats a = u - __builtin_convertvector(column, Floats);
   const Floats b = v - __builtin_convertvector(line, Floats);
-  const Ints at = cube.inside ? line * f.width + column : Ints{};
+  const Ints at = lanes.inside ? line * f.width + column : Ints{};
   Quad squares[kLanes];
   for (int i = 0; i < kLanes; ++i) {
     const float* upper = f.intensity + at[i];
@@ -158,13 +162,13 @@ inline void intensity_at(Floats& out, const Cube& cube, const FrameEvidence& f) 
   out = upper + b * (lower - upper);
 }
 
-inline void add_intensity(Block& block, int at, const Cube& cube, const Ints& near,
+inline void add_intensity(VoxelCube& cube, const Lanes& lanes, const Ints& near,
                           const Floats& share, const FrameEvidence& f) {
   Floats seen;
-  intensity_at(seen, cube, f);
+  intensity_at(seen, lanes, f);
   const Ints valid = near & (seen >= 0.0F);
   Words stored;
-  load(stored, &block.intensity[at]);
+  load(stored, cube.intensity);
   const Floats before = __builtin_convertvector(stored, Floats);
   Floats rate = share;
   most(rate, Floats{} + f.intensity_rate);
@@ -172,25 +176,25 @@ inline void add_intensity(Block& block, int at, const Cube& cube, const Ints& ne
   const Floats mean = before + rate * (seen * (1.0F / kIntensityUnit) - before) + 0.5F;
   const Ints kept = __builtin_convertvector(stored, Ints);
   const Ints fresh = __builtin_convertvector(mean, Ints);
-  store(&block.intensity[at], __builtin_convertvector(valid ? fresh : kept, Words));
+  store(cube.intensity, __builtin_convertvector(valid ? fresh : kept, Words));
 }
 
 // Signed distance: running weighted mean (Curless and Levoy, "A volumetric method for building
-// complex models from range images", 1996). The weight falls with the square of the depth and with
-// the slant.
-inline void add_distance(Block& block, int at, const Cube& cube, const Surface& s,
-                         const Ints& valid, const FrameEvidence& f) {
+// complex models from range images", 1996). The weight falls with the square of the depth and
+// with the square of the slant's cosine.
+inline void add_distance(VoxelCube& cube, const Lanes& lanes, const Surface& s, const Ints& valid,
+                         const FrameEvidence& f) {
   Words stored_weight;
   Shorts stored_distance;
-  load(stored_weight, &block.weight[at]);
-  load(stored_distance, &block.distance[at]);
+  load(stored_weight, cube.weight);
+  load(stored_distance, cube.distance);
   Floats weight = __builtin_convertvector(stored_weight, Floats);
   Floats distance = __builtin_convertvector(stored_distance, Floats);
 
-  Floats range = cube.x * cube.x + cube.y * cube.y + cube.z * cube.z;
+  Floats range = lanes.x * lanes.x + lanes.y * lanes.y + lanes.z * lanes.z;
   square_root(range);
   const Floats metres = s.depth * f.voxel;
-  Floats gain = s.along * (1.0F / kWeightUnit) / (range * metres * metres);
+  Floats gain = s.along * s.per_edge * (1.0F / kWeightUnit) / (range * metres * metres);
   most(gain, Floats{} + 1.0F);
   least(gain, Floats{} + 4.0F / kWeightUnit);
   Floats measured = s.distance;
@@ -206,36 +210,44 @@ inline void add_distance(Block& block, int at, const Cube& cube, const Surface& 
   const Ints new_weight = __builtin_convertvector(weight + 0.5F, Ints);
   const Ints old_distance = __builtin_convertvector(stored_distance, Ints);
   const Ints old_weight = __builtin_convertvector(stored_weight, Ints);
-  store(&block.distance[at], __builtin_convertvector(valid ? new_distance : old_distance, Shorts));
-  store(&block.weight[at], __builtin_convertvector(valid ? new_weight : old_weight, Words));
+  store(cube.distance, __builtin_convertvector(valid ? new_distance : old_distance, Shorts));
+  store(cube.weight, __builtin_convertvector(valid ? new_weight : old_weight, Words));
   if (!f.intensity) return;
   const Ints near = valid & (s.distance < 2.0F);
-  if (any(near)) add_intensity(block, at, cube, near, share, f);
+  if (any(near)) add_intensity(cube, lanes, near, share, f);
 }
 
-inline bool update_cube(Block& block, int at, const float (&start)[3], const FrameEvidence& f) {
-  Cube cube;
-  if (!project_cube(cube, start, f)) return false;
+inline bool update_cube(VoxelCube& cube, const float (&start)[3], const FrameEvidence& f) {
+  Lanes lanes;
+  if (!project(lanes, start, f)) return false;
   Surface s;
-  meet_surface(s, cube, f);
+  meet_surface(s, lanes, f);
   const Floats band = 3.0F + 3.0F * s.sigma;
-  Floats margin = 3.0F * s.sigma;
-  most(margin, Floats{} + 0.5F);
-  // Behind the margin nothing is said about occupancy: the rest of the band is left alone.
-  Ints banded = s.known & (s.ahead <= band) & (s.ahead >= -margin);
-  // Interpolation needs all eight voxels around the surface: two edges behind it, however slanted.
-  Floats behind = 2.0F * s.sigma;
-  most(behind, Floats{} + 2.0F);
-  Ints valid = s.known & (s.distance >= -behind) & ((s.ahead <= band) | (s.distance <= 2.0F));
+  // A little over half a voxel: of a surface midway between voxels neither may round away.
+  const Floats noise = s.sigma * s.per_edge;  // across the surface
+  Floats margin = 3.0F * noise;
+  most(margin, Floats{} + 0.501F);
+  // Interpolation needs all eight voxels around the surface: two edges to each side of it, however
+  // slanted. What is known farther in front is free now.
+  Floats reach = 2.0F * noise;
+  most(reach, Floats{} + 2.0F);
+  Words weight;
+  load(weight, cube.weight);
+  const Ints known = __builtin_convertvector(weight, Ints) > 0;
+  Ints banded, valid;
   if (f.carve) {
-    Words weight;
-    load(weight, &block.weight[at]);
-    banded = s.known & (s.ahead > band) & (__builtin_convertvector(weight, Ints) > 0);
+    banded = s.known & known & (s.ahead > band);
     valid = banded;
+  } else {
+    // Behind the margin nothing is said about occupancy: the rest of the band is left alone.
+    const Ints in_band = s.known & (s.ahead <= band);
+    banded = in_band & (s.distance >= (s.trusted ? -margin : margin));
+    valid = s.known & (s.distance >= (s.trusted ? -reach : margin)) &
+            ((s.distance <= reach) | (in_band & known));
   }
   if (!any(banded | valid)) return false;
-  if (any(banded)) add_log_odds(block, at, s, margin, banded, f);
-  if (any(valid)) add_distance(block, at, cube, s, valid, f);
+  if (any(banded)) add_log_odds(cube, s, margin, banded, f);
+  if (any(valid)) add_distance(cube, lanes, s, valid, f);
   return true;
 }
 
@@ -244,26 +256,32 @@ inline bool update_cube(Block& block, int at, const float (&start)[3], const Fra
 bool update_block(Block& block, const float (&origin)[3], const DepthIntervals& depths,
                   const FrameEvidence& frame) {
   bool changed = false;
-  for (int cube = 0; cube < kBlockVoxels / kLanes; ++cube) {
-    const int x = cube & 3;
-    const int y = cube >> 2 & 3;
-    const int z = cube >> 4;
-    const DepthInterval& looked_at = depths.octant[x / 2 + 2 * (y / 2) + 4 * (z / 2)];
-    float start[3];
-    for (int i = 0; i < 3; ++i) {
-      start[i] = origin[i] + static_cast<float>(2 * x) * frame.step[0][i] +
-                 static_cast<float>(2 * y) * frame.step[1][i] +
-                 static_cast<float>(2 * z) * frame.step[2][i];
+  for (int octant = 0; octant < 8; ++octant) {
+    const DepthInterval& looked_at = depths.octant[octant];
+    if (looked_at.near > looked_at.far) continue;
+    for (int i = 0; i < 8; ++i) {
+      const int x = 2 * (octant & 1) + (i & 1);
+      const int y = (octant & 2) + (i >> 1 & 1);
+      const int z = (octant >> 1 & 2) + (i >> 2);
+      const int cube = x + 4 * y + 16 * z;
+      const float* offset = frame.cube[cube];
+      const float depth = origin[2] + offset[2];
+      if (depth + frame.cube_far < looked_at.near || depth + frame.cube_near > looked_at.far) {
+        continue;
+      }
+      const float start[3] = {origin[0] + offset[0], origin[1] + offset[1], depth};
+      changed |= update_cube(block.cubes[cube], start, frame);
     }
-    if (start[2] + frame.cube_far < looked_at.near || start[2] + frame.cube_near > looked_at.far) {
-      continue;
-    }
-    changed |= update_cube(block, cube * kLanes, start, frame);
   }
   if (!changed) return false;
-  int occupied = 0;
-  for (int i = 0; i < kBlockVoxels; ++i) occupied |= block.log_odds[i] > frame.occupied_above;
-  block.occupied = occupied != 0;
+  Shorts highest = Shorts{} + frame.lowest;
+  for (const VoxelCube& cube : block.cubes) {
+    Shorts values;
+    load(values, cube.log_odds);
+    highest = values > highest ? values : highest;
+  }
+  block.occupied = false;
+  for (int i = 0; i < kLanes; ++i) block.occupied |= highest[i] > frame.occupied_above;
   return true;
 }
 

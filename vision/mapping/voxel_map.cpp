@@ -1,7 +1,6 @@
 #include "vision/mapping/voxel_map.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <iterator>
 #include <memory>
@@ -9,6 +8,7 @@
 #include "vision/mapping/depth_band.hpp"
 #include "vision/mapping/depth_planes.hpp"
 #include "vision/mapping/update_block.hpp"
+#include "vision/mapping/view_frustum.hpp"
 
 namespace armsreach::mapping {
 namespace {
@@ -36,13 +36,19 @@ FrameEvidence frame_evidence(const VoxelMapOptions& options, const HitTable& hit
                               static_cast<float>(lane >> 2) * frame.step[2][i];
     }
   }
+  for (int cube = 0; cube < kBlockVoxels / 8; ++cube) {
+    const VoxelInBlock first = voxel_at(8 * cube);
+    for (int i = 0; i < 3; ++i) {
+      frame.cube[cube][i] = static_cast<float>(first.x) * frame.step[0][i] +
+                            static_cast<float>(first.y) * frame.step[1][i] +
+                            static_cast<float>(first.z) * frame.step[2][i];
+    }
+  }
   frame.cube_near = *std::min_element(frame.corner[2], frame.corner[2] + 8);
   frame.cube_far = *std::max_element(frame.corner[2], frame.corner[2] + 8);
   frame.voxel = static_cast<float>(options.resolution);
   frame.noise = static_cast<float>(options.sensor.noise * options.resolution);
   frame.hits = hits.data();
-  frame.hit_rows = hits.rows();
-  frame.hit_rows_per_edge = static_cast<float>(hits.rows_per_metre() * options.resolution);
   frame.free = fixed_log_odds(options.sensor.free);
   frame.lowest = fixed_log_odds(options.least_certain);
   frame.highest = fixed_log_odds(options.most_certain);
@@ -75,15 +81,17 @@ bool look(const DepthBand& band, const Eigen::Vector3f& first, const FrameEviden
     }
     DepthInterval& interval = depths.octant[octant];
     interval = frame.carve ? band.in_front(centre, kRadius) : band.around(centre, kRadius);
-    any |= centre.z() - kRadius <= interval.far && centre.z() + kRadius >= interval.near;
+    if (centre.z() - kRadius > interval.far || centre.z() + kRadius < interval.near) {
+      interval = {1, 0};
+    }
+    any |= interval.near <= interval.far;
   }
   return any;
 }
 
 }  // namespace
 
-VoxelMap::VoxelMap(const VoxelMapOptions& options)
-    : options_(options), hits_(options.sensor, options.resolution, options.max_range) {
+VoxelMap::VoxelMap(const VoxelMapOptions& options) : options_(options), hits_(options.sensor) {
   CV_Assert(options.resolution > 0 && options.max_range > 0 && options.sensor.noise > 0);
   grid_.resolution = options.resolution;
   grid_.occupied_above = fixed_log_odds(options.occupied_above);
@@ -104,7 +112,11 @@ void VoxelMap::insert(const cv::Mat& depth, const cv::Mat& intensity, const cv::
   update(band.blocks(world_from_camera), band, frame, camera_from_world);
   if (options_.carve_every > 0 && insertions_ % options_.carve_every == 0) {
     frame.carve = true;
-    update(occupied_in_view(camera, camera_from_world), band, frame, camera_from_world);
+    std::vector<BlockKey> occupied;
+    for_occupied_in_view(grid_, camera, camera_from_world,
+                         [&](const BlockKey& key) { occupied.push_back(key); });
+    std::sort(occupied.begin(), occupied.end());
+    update(occupied, band, frame, camera_from_world);
   }
   ++insertions_;
   if (grid_.blocks.block_count() > options_.max_blocks) {
@@ -129,33 +141,6 @@ void VoxelMap::update(const std::vector<BlockKey>& keys, const DepthBand& band,
   }
 }
 
-std::vector<BlockKey> VoxelMap::occupied_in_view(const Camera& camera,
-                                                 const Pose& camera_from_world) const {
-  const double region_edge = kRegionEdge * kBlockEdge * options_.resolution;
-  const double radius = std::sqrt(0.75) * region_edge;
-  const double slope_x = std::max(camera.cx + 0.5, camera.width - 0.5 - camera.cx) / camera.fx;
-  const double slope_y = std::max(camera.cy + 0.5, camera.height - 0.5 - camera.cy) / camera.fy;
-  const auto beside = [&](double across, double z, double slope) {
-    return std::abs(across) > slope * z + radius * std::sqrt(1 + slope * slope);
-  };
-  std::vector<BlockKey> found;
-  grid_.blocks.for_each_region([&](const BlockKey& key, const Region& region) {
-    if (region.occupied == 0) return;
-    const Eigen::Vector3d centre =
-        camera_from_world *
-        (region_edge * (Eigen::Vector3d(key.x, key.y, key.z).array() + 0.5)).matrix();
-    if (centre.z() < -radius || beside(centre.x(), centre.z(), slope_x) ||
-        beside(centre.y(), centre.z(), slope_y)) {
-      return;
-    }
-    for (std::uint64_t rest = region.occupied; rest != 0; rest &= rest - 1) {
-      found.push_back(BlockTable::block_at(key, std::countr_zero(rest)));
-    }
-  });
-  std::sort(found.begin(), found.end());
-  return found;
-}
-
 VoxelGrid VoxelMap::snapshot() {
   grid_.blocks.share();
   return grid_;
@@ -174,8 +159,10 @@ void VoxelMap::put(const BlockKey& key, const Block& block) {
   const std::uint64_t epoch = target->epoch;
   *target = block;
   target->epoch = epoch;
-  target->occupied = std::any_of(std::begin(block.log_odds), std::end(block.log_odds),
-                                 [&](std::int16_t v) { return v > grid_.occupied_above; });
+  target->occupied = false;
+  for (int at = 0; at < kBlockVoxels; ++at) {
+    target->occupied |= block.log_odds(at) > grid_.occupied_above;
+  }
   grid_.blocks.put(key, target);
   changed_.push_back(key);
 }

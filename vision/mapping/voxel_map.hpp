@@ -24,7 +24,7 @@ struct VoxelMapOptions {
   double resolution = 0.01;  // edge of a voxel, m
   SensorModel sensor;
   double max_range = 8;           // m; measurements beyond say nothing
-  double min_trust = 0.1;         // least weight of a pixel that may touch the map
+  double min_trust = 0.1;         // least weight of a pixel that may add surface
   double occupied_above = 0.51;   // probability
   double least_certain = 0.1192;  // clamps of the accumulated probability: OctoMap's, so that what
   double most_certain = 0.971;    // was carried away is forgotten within ten frames
@@ -43,8 +43,8 @@ class VoxelMap {
   explicit VoxelMap(const VoxelMapOptions& options);
 
   // Depth (CV_32F metres along z, NaN unknown) and intensity (CV_32F 0..1, NaN unknown; may be
-  // empty) of a pinhole camera. `trust` (CV_32F, may be empty): pixels below min_trust are left
-  // out, NaN was not judged and is let in.
+  // empty) of a pinhole camera. `trust` (CV_32F, may be empty): pixels below min_trust add no
+  // surface, though what lies in front of them is still free; NaN was not judged and is trusted.
   void insert(const cv::Mat& depth, const cv::Mat& intensity, const cv::Mat& trust,
               const Camera& camera, const Pose& world_from_camera);
 
@@ -62,7 +62,6 @@ class VoxelMap {
  private:
   void update(const std::vector<BlockKey>& keys, const DepthBand& band, const FrameEvidence& frame,
               const Pose& camera_from_world);
-  std::vector<BlockKey> occupied_in_view(const Camera& camera, const Pose& camera_from_world) const;
 
   VoxelMapOptions options_;
   VoxelGrid grid_;

@@ -1,0 +1,20 @@
+// The verbs of the command line. Each adds its options to the program and, when it was chosen,
+// leaves its task to be run.
+#pragma once
+
+#include <functional>
+
+#include <CLI/CLI.hpp>
+
+#include "vision/core/result.hpp"
+
+namespace armsreach::app {
+
+using Task = std::function<Status()>;
+
+void add_run_command(CLI::App& app, Task* task);
+void add_demo_command(CLI::App& app, Task* task);
+void add_sources_command(CLI::App& app, Task* task);
+void add_evaluate_command(CLI::App& app, Task* task);
+
+}  // namespace armsreach::app

@@ -1,0 +1,120 @@
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <utility>
+
+#include "app/cli/run_options.hpp"
+#include "app/cli/source_kinds.hpp"
+#include "app/pipelines/presenter.hpp"
+#include "app/pipelines/workspace.hpp"
+#include "app/runtime/event_log.hpp"
+#include "devices/rig_yaml.hpp"
+
+namespace armsreach::app {
+namespace {
+
+constexpr int kOperatorWidth = 1280;  // px
+constexpr int kOperatorHeight = 720;
+
+Result<Config> read_config_file(const std::string& path) {
+  if (path.empty()) return Config{};
+  std::ifstream in(path);
+  if (!in) return Error{"cannot be opened", path, "check the path given to --config"};
+  return read_config(in, path);
+}
+
+Result<std::optional<CameraFile>> read_camera_file(const std::string& path) {
+  if (path.empty()) return std::optional<CameraFile>();
+  std::ifstream in(path);
+  if (!in) return Error{"cannot be opened", path, "check the path given to --camera"};
+  auto file = read_camera_yaml(in, path);
+  if (!file) return file.error();
+  return std::optional<CameraFile>(*file);
+}
+
+Result<std::unique_ptr<Rig>> open_rig(const RunOptions& options) {
+  if (options.sources.empty() && options.rig.empty()) {
+    return Error{"no source was given", "--source",
+                 "for example --source sim:bench; see `armsreach sources`"};
+  }
+  auto spec = options.rig.empty() ? rig_from_specs(options.sources) : read_rig_file(options.rig);
+  if (!spec) return spec.error();
+  auto camera = read_camera_file(options.camera);
+  if (!camera) return camera.error();
+  return armsreach::open_rig(*spec, *camera, all_source_kinds());
+}
+
+// The sensor called main, or else the first one that measures depth, or else the first.
+const SensorInfo& main_sensor(const Rig& rig) {
+  const SensorInfo* with_depth = nullptr;
+  for (const RigSensor& sensor : rig.sensors()) {
+    const SensorInfo& info = *sensor.source->sensor();
+    if (info.name == "main") return info;
+    if (info.depth_camera && !with_depth) with_depth = &info;
+  }
+  return with_depth ? *with_depth : *rig.sensors().front().source->sensor();
+}
+
+PresenterOptions presenter_options(const RunOptions& options, const Config& config,
+                                   const SensorInfo& sensor) {
+  PresenterOptions out;
+  const bool operator_desk = config.layout == "operator";
+  const Camera& camera = sensor.color_camera ? *sensor.color_camera : sensor.camera();
+  out.display = options.display;
+  out.layout = layout_from_name(config.layout);
+  out.width = config.width ? config.width : operator_desk ? kOperatorWidth : camera.width;
+  out.height = config.height ? config.height : operator_desk ? kOperatorHeight : camera.height;
+  out.record = options.record;
+  out.screenshots = options.screenshots;
+  out.rate = sensor.rate;
+  out.may_drop = options.pace == "live";
+  out.actions = config.actions;
+  return out;
+}
+
+void print_summary(const RunSummary& s) {
+  std::printf(
+      "%lld frames in %.1f s (%.1f Hz), %lld tracked; frame to overlay %.0f ms, p95 %.0f ms\n",
+      static_cast<long long>(s.frames), s.seconds,
+      s.seconds > 0 ? static_cast<double>(s.frames) / s.seconds : 0,
+      static_cast<long long>(s.tracked_frames), 1e3 * s.latency_p50, 1e3 * s.latency_p95);
+}
+
+}  // namespace
+
+Status run(const RunOptions& options) {
+  auto config = read_config_file(options.config);
+  if (!config) return config.error();
+  return run(options, *config);
+}
+
+Status run(const RunOptions& options, const Config& config) {
+  const Pace pace = options.pace == "live" ? Pace::live : Pace::every_frame;
+  if (pace == Pace::live && !config.threads) {
+    return Error{"threads: false is for --pace every-frame", options.config,
+                 "remove it, or add --pace every-frame"};
+  }
+  auto rig = open_rig(options);
+  if (!rig) return rig.error();
+  const SensorInfo& sensor = main_sensor(**rig);
+
+  EventLog log;
+  if (auto status = log.open(options.events); !status) return status;
+  auto presenter = Presenter::make(presenter_options(options, config, sensor));
+  if (!presenter) return presenter.error();
+
+  WorkspaceOptions workspace;
+  workspace.sensor = sensor.name;
+  workspace.pace = pace;
+  workspace.frames = options.frames;
+  workspace.trajectory = options.trajectory;
+  workspace.stats = options.stats;
+  workspace.map = options.map;
+  auto summary = run_workspace(**rig, **presenter, log, config, workspace);
+  if (auto status = log.close(); !status) return status;
+  if (!summary) return summary.error();
+  print_summary(*summary);
+  return ok();
+}
+
+}  // namespace armsreach::app

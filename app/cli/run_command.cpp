@@ -1,0 +1,37 @@
+// armsreach run: the command line of a run.
+#include <memory>
+
+#include "app/cli/commands.hpp"
+#include "app/cli/run_options.hpp"
+
+namespace armsreach::app {
+
+void add_run_command(CLI::App& app, Task* task) {
+  CLI::App* command = app.add_subcommand("run", "augment a live or recorded sensor");
+  auto o = std::make_shared<RunOptions>();
+  auto* source = command->add_option(
+      "--source", o->sources, "what to look through: SPEC or NAME=SPEC, see `armsreach sources`");
+  command->add_option("--rig", o->rig, "YAML file of named sensors")->excludes(source);
+  command->add_option("--experience", o->experiences, "workspace")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"workspace"}));
+  command->add_option("--camera", o->camera, "camera YAML in place of the source's own");
+  command->add_option("--display", o->display, "where to draw")
+      ->check(CLI::IsMember({"auto", "window", "egl", "osmesa", "none"}))
+      ->capture_default_str();
+  command->add_option("--pace", o->pace, "live skips stale frames, every-frame drops nothing")
+      ->check(CLI::IsMember({"live", "every-frame"}))
+      ->capture_default_str();
+  command->add_option("--frames", o->frames, "stop after so many")->check(CLI::PositiveNumber);
+  command->add_option("--record", o->record, "film (H.264 mp4)");
+  command->add_option("--screenshots", o->screenshots, "folder for a PNG a second, and the last");
+  command->add_option("--trajectory", o->trajectory, "camera poses in TUM format");
+  command->add_option("--events", o->events, "events, one JSON object a line");
+  command->add_option("--stats", o->stats, "statistics as JSON");
+  command->add_option("--map", o->map, "map to save at the end (OctoMap .ot)");
+  command->add_option("--config", o->config, "YAML, see 'Configuration' in the README");
+  command->add_option("--seed", o->seed, "of everything random")->capture_default_str();
+  command->callback([task, o] { *task = [o] { return run(*o); }; });
+}
+
+}  // namespace armsreach::app

@@ -1,0 +1,46 @@
+// What clicks do to inserted objects: a state machine over a WorldView that knows neither windows
+// nor threads.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "vision/core/event.hpp"
+#include "vision/core/world_view.hpp"
+
+namespace armsreach::app {
+
+struct Click {
+  Ray ray_in_world;
+  std::string insert;  // the mesh to stand where the ray meets the map; empty: select
+};
+
+struct PlacedObject {
+  std::int64_t id = 0;
+  std::string mesh;
+  Anchor anchor;
+  bool selected = false;
+};
+
+class Placement {
+ public:
+  // `world` may be null while nothing is mapped. `viewer_in_world` is what the object faces.
+  Events click(const Click& click, const WorldView* world, const Eigen::Vector3d& viewer_in_world,
+               Timestamp time);
+  Events remove_selected(const WorldView* world, Timestamp time);
+
+  const std::vector<PlacedObject>& objects() const { return objects_; }
+  // Where an object is today, after corrections of the map.
+  static Pose world_from_object(const PlacedObject& object, const WorldView* world);
+
+ private:
+  Events insert(const Click& click, const WorldView& world, const Eigen::Vector3d& viewer_in_world,
+                Timestamp time);
+  void select(const Ray& ray, const WorldView* world);
+
+  std::vector<PlacedObject> objects_;
+  std::int64_t next_id_ = 1;
+};
+
+}  // namespace armsreach::app

@@ -1,0 +1,151 @@
+#include "app/pipelines/composer.hpp"
+
+#include <utility>
+
+#include <opencv2/imgproc.hpp>
+
+#include "vision/core/pyramid.hpp"
+#include "vision/core/registration.hpp"
+
+namespace armsreach::app {
+namespace {
+
+constexpr float kTrailStep = 0.01F;     // m between kept points of the camera's trail
+constexpr size_t kLongestTrail = 4000;  // points
+constexpr int kOcclusionReduction = 2;  // depth is compared at half the video's resolution
+
+// A camera without colour still shows something: its depth, near bright, 4 m dark.
+cv::Mat picture_of_depth(const cv::Mat& depth) {
+  cv::Mat grey;
+  depth.convertTo(grey, CV_8U, -60, 255);
+  grey.setTo(0, depth != depth);
+  return grey;
+}
+
+render::Severity severity_of(const Event& event) {
+  return std::holds_alternative<FaultEvent>(event.body) ? render::Severity::warning
+                                                        : render::Severity::info;
+}
+
+struct BodyToText {
+  std::string operator()(const TrackingEvent& e) const {
+    return std::string(armsreach::name(e.state));
+  }
+  std::string operator()(const InsertEvent& e) const { return e.object + " inserted"; }
+  std::string operator()(const MoveEvent& e) const { return e.object + " moved"; }
+  std::string operator()(const DeleteEvent& e) const { return e.object + " deleted"; }
+  std::string operator()(const FaultEvent& e) const {
+    return e.component + ": " + e.message + (e.remedy.empty() ? "" : " - " + e.remedy);
+  }
+};
+
+}  // namespace
+
+Composer::Composer(const EventLog& log, StageRows stage_rows)
+    : log_(log), stage_rows_(std::move(stage_rows)) {}
+
+ComposedPtr Composer::process(const ComposeInput& input) {
+  if (!input.tracked) return nullptr;  // the tracker failed on this frame and has said so
+  const TrackedFrame& tracked = *input.tracked;
+  const WorldView* world = input.map ? input.map->view.get() : nullptr;
+
+  auto composed = std::make_shared<Composed>();
+  composed->arrival = tracked.frame->arrival;
+  composed->events = apply(input.user, world, tracked);
+
+  auto scene = std::make_shared<render::Scene>();
+  add_video(tracked, scene.get());
+  add_tracking(tracked, scene.get());
+  if (input.map) scene->surface = input.map->surface;
+  add_objects(world, scene.get());
+  add_messages(scene.get());
+  measure_rate(tracked.frame->arrival);
+  scene->frame_rate = frame_rate_;
+  scene->stages = stage_rows_();
+  composed->scene = std::move(scene);
+  return composed;
+}
+
+// The background, its camera and the depth that hides things, all of one instant.
+void Composer::add_video(const TrackedFrame& tracked, render::Scene* scene) {
+  const Frame& frame = *tracked.frame;
+  const SensorInfo& sensor = *frame.sensor;
+  scene->frame = frame.index;
+  scene->time = seconds_from_timestamp(frame.time);
+  const bool color = !frame.color.empty();
+  scene->background = color ? frame.color : picture_of_depth(frame.depth);
+  const bool from_depth = !color || !sensor.color_camera;
+  scene->camera = from_depth ? sensor.camera() : *sensor.color_camera;
+  const Pose background_from_camera =
+      !from_depth && sensor.depth_camera ? sensor.color_from_depth : Pose();
+  scene->world_from_camera = tracked.world_from_camera * background_from_camera.inverse();
+  if (frame.depth.empty()) return;
+  const cv::Mat depth = reduced_depth(frame.depth, kOcclusionReduction);
+  if (sensor.registered || from_depth) {
+    scene->depth = depth;
+    return;
+  }
+  const Camera target = resized(scene->camera, scene->camera.width / kOcclusionReduction,
+                                scene->camera.height / kOcclusionReduction);
+  scene->depth = registered_depth(depth, resized(*sensor.depth_camera, depth.cols, depth.rows),
+                                  target, background_from_camera);
+}
+
+void Composer::add_tracking(const TrackedFrame& tracked, render::Scene* scene) {
+  scene->pose_known = trusted(tracked);
+  scene->tracking_state = armsreach::name(tracked.state);
+  scene->tracking_rms = tracked.rms;
+  scene->tracking_inliers = tracked.inliers;
+  scene->inliers = tracked.weights;
+  if (scene->pose_known) {
+    const Eigen::Vector3f here = tracked.world_from_camera.translation().cast<float>();
+    if (camera_trail_.empty() || (here - camera_trail_.back()).norm() > kTrailStep) {
+      camera_trail_.push_back(here);
+    }
+    if (camera_trail_.size() > kLongestTrail) {
+      camera_trail_.erase(camera_trail_.begin(), camera_trail_.begin() + kLongestTrail / 4);
+    }
+  }
+  scene->trails.push_back({camera_trail_, {1.0F, 0.76F, 0.25F}});
+}
+
+void Composer::add_objects(const WorldView* world, render::Scene* scene) {
+  for (const PlacedObject& object : placement_.objects()) {
+    scene->objects.push_back({object.id, object.mesh, Placement::world_from_object(object, world),
+                              1.0, object.selected});
+  }
+}
+
+void Composer::add_messages(render::Scene* scene) {
+  for (const Event& event : log_.recent()) {
+    scene->messages.push_back({severity_of(event), std::visit(BodyToText{}, event.body)});
+  }
+}
+
+Events Composer::apply(const std::vector<UserInput>& user, const WorldView* world,
+                       const TrackedFrame& tracked) {
+  Events events;
+  const auto add = [&](Events more) {
+    events.insert(events.end(), std::make_move_iterator(more.begin()),
+                  std::make_move_iterator(more.end()));
+  };
+  const Timestamp time = tracked.frame->time;
+  for (const UserInput& input : user) {
+    for (const Click& click : input.clicks) {
+      add(placement_.click(click, world, tracked.world_from_camera.translation(), time));
+    }
+    if (input.delete_selected) add(placement_.remove_selected(world, time));
+  }
+  return events;
+}
+
+void Composer::measure_rate(std::int64_t arrival) {
+  if (last_arrival_ != 0 && arrival > last_arrival_) {
+    const double rate = 1e9 / static_cast<double>(arrival - last_arrival_);
+    constexpr double kSmoothing = 0.1;
+    frame_rate_ = frame_rate_ == 0 ? rate : frame_rate_ + kSmoothing * (rate - frame_rate_);
+  }
+  last_arrival_ = arrival;
+}
+
+}  // namespace armsreach::app

@@ -1,0 +1,50 @@
+// The end of the line, on the main thread: draws what was composed, writes the journal and the
+// events, and sends what the person did back to the composer.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "app/pipelines/composer.hpp"
+#include "app/pipelines/journal.hpp"
+#include "app/pipelines/presenter.hpp"
+#include "app/runtime/event_log.hpp"
+#include "app/runtime/stage.hpp"
+
+namespace armsreach::app {
+
+class DrawNode final : public Node {
+ public:
+  struct Connections {
+    std::shared_ptr<Connection<ComposedPtr>> scenes;
+    std::shared_ptr<Connection<TrackedFramePtr>> tracked;  // every event
+    std::shared_ptr<Connection<UserInput>> user;
+  };
+
+  DrawNode(Presenter& presenter, Journal& journal, EventLog& log, Connections connections,
+           std::function<void()> stop_sources);
+
+  bool turn() override;
+
+  const LatencyHistogram& latency() const { return latency_; }  // frame read to overlay drawn
+  // The first picture, film or file that could not be written.
+  const std::optional<Error>& failure() const { return failure_; }
+
+ private:
+  std::optional<ComposedPtr> next_scene();
+  void draw(const Composed& composed, bool fresh);
+  void finish();
+  void fail(const Error& error);
+
+  Presenter& presenter_;
+  Journal& journal_;
+  EventLog& log_;
+  Connections connections_;
+  std::function<void()> stop_sources_;
+  ComposedPtr shown_;
+  LatencyHistogram latency_;
+  std::optional<Error> failure_;
+};
+
+}  // namespace armsreach::app

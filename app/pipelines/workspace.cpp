@@ -1,0 +1,236 @@
+#include "app/pipelines/workspace.hpp"
+
+#include <chrono>
+#include <fstream>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "app/pipelines/capture_node.hpp"
+#include "app/pipelines/composer.hpp"
+#include "app/pipelines/draw_node.hpp"
+#include "app/pipelines/journal.hpp"
+#include "app/pipelines/vision_stages.hpp"
+#include "app/runtime/interrupt.hpp"
+#include "app/runtime/memory.hpp"
+#include "app/runtime/runner.hpp"
+
+namespace armsreach::app {
+namespace {
+
+using TrackingNode = StageNode<TrackInput, TrackedFramePtr>;
+using MappingNode = StageNode<TrackedFramePtr, MapStatePtr>;
+using ComposingNode = StageNode<ComposeInput, ComposedPtr>;
+
+constexpr size_t kJournalLength = 64;  // tracked frames waiting to be written down
+constexpr int kUserLag = 2;            // frames from a picture to the click on it, every-frame
+
+// All stages of the experience and how they are joined:
+//
+//   capture -> tracking -> composing -> drawing
+//                 |  ^         ^  ^        |
+//                 v  | map     |  |  user  |
+//              mapping --------+  +--------+
+class Workspace {
+ public:
+  Workspace(Rig& rig, Presenter& presenter, EventLog& log, const Config& config,
+            const WorkspaceOptions& options);
+
+  Result<RunSummary> run();
+
+ private:
+  void join_tracking();
+  void join_mapping();
+  void join_composing();
+  void join_drawing(Presenter& presenter);
+  FaultHandler fault_handler();
+  std::vector<Node*> nodes();
+  std::vector<render::StageRow> stage_rows();
+  std::int64_t drops(const Node& node) const;
+  RunSummary summary(double seconds);
+  Status write_stats(const RunSummary& summary);
+  Status first_failure();
+
+  const Config& config_;
+  const WorkspaceOptions& options_;
+  EventLog& log_;
+  Wiring wiring_;
+  Journal journal_;
+
+  std::shared_ptr<Connection<FramePtr>> frames_ = wiring_.driving<FramePtr>();
+  std::shared_ptr<Connection<TrackedFramePtr>> to_map_ = wiring_.driving<TrackedFramePtr>();
+  std::shared_ptr<Connection<TrackedFramePtr>> to_compose_ = wiring_.driving<TrackedFramePtr>();
+  std::shared_ptr<Connection<TrackedFramePtr>> to_journal_;
+  std::shared_ptr<Connection<ComposedPtr>> scenes_ = wiring_.driving<ComposedPtr>();
+  Following<MapStatePtr> map_for_tracking_{wiring_, config_.lag};
+  Following<MapStatePtr> map_for_composing_{wiring_, config_.lag};
+  FollowingEvents<UserInput> user_{wiring_, kUserLag};
+
+  CaptureNode capture_;
+  std::unique_ptr<TrackingNode> tracking_;
+  std::unique_ptr<MappingNode> mapping_;
+  MappingStage* mapping_stage_ = nullptr;  // owned by its node
+  std::unique_ptr<ComposingNode> composing_;
+  std::unique_ptr<DrawNode> drawing_;
+};
+
+Workspace::Workspace(Rig& rig, Presenter& presenter, EventLog& log, const Config& config,
+                     const WorkspaceOptions& options)
+    : config_(config),
+      options_(options),
+      log_(log),
+      wiring_{options.pace, config.threads},
+      journal_(log),
+      to_journal_(wiring_.queue<TrackedFramePtr>(kJournalLength)),
+      capture_(rig, {options.sensor, options.pace, options.frames}, log) {
+  capture_.outlet().connect(frames_);
+  join_tracking();
+  if (config_.mapping.enabled) join_mapping();
+  join_composing();
+  join_drawing(presenter);
+}
+
+void Workspace::join_tracking() {
+  tracking_ = std::make_unique<TrackingNode>(
+      std::make_unique<TrackingStage>(config_.tracking),
+      [this]() -> std::optional<TrackInput> {
+        auto frame = frames_->pop();
+        if (!frame) return std::nullopt;
+        return TrackInput{*frame, mapping_ ? map_for_tracking_.take() : nullptr};
+      },
+      fault_handler());
+  tracking_->outlet().connect(to_journal_);
+  tracking_->outlet().connect(to_compose_);
+}
+
+void Workspace::join_mapping() {
+  auto stage = std::make_unique<MappingStage>(config_.mapping);
+  mapping_stage_ = stage.get();
+  mapping_ = std::make_unique<MappingNode>(
+      std::move(stage), [this] { return to_map_->pop(); }, fault_handler());
+  tracking_->outlet().connect(to_map_);
+  mapping_->outlet().connect(map_for_tracking_.connection());
+  mapping_->outlet().connect(map_for_composing_.connection());
+}
+
+void Workspace::join_composing() {
+  composing_ = std::make_unique<ComposingNode>(
+      std::make_unique<Composer>(log_, [this] { return stage_rows(); }),
+      [this]() -> std::optional<ComposeInput> {
+        auto tracked = to_compose_->pop();
+        if (!tracked) return std::nullopt;
+        return ComposeInput{*tracked, mapping_ ? map_for_composing_.take() : nullptr, user_.take()};
+      },
+      fault_handler());
+  composing_->outlet().connect(scenes_);
+}
+
+void Workspace::join_drawing(Presenter& presenter) {
+  drawing_ = std::make_unique<DrawNode>(
+      presenter, journal_, log_, DrawNode::Connections{scenes_, to_journal_, user_.connection()},
+      [this] { capture_.stop(); });
+}
+
+FaultHandler Workspace::fault_handler() {
+  return [this](const std::string& stage, const std::string& what) {
+    log_.write({0, FaultEvent{stage, what, "the stage goes on with the next frame"}});
+  };
+}
+
+std::vector<Node*> Workspace::nodes() {
+  std::vector<Node*> all = {&capture_, tracking_.get()};
+  if (mapping_) all.push_back(mapping_.get());
+  all.push_back(composing_.get());
+  all.push_back(drawing_.get());
+  return all;
+}
+
+std::int64_t Workspace::drops(const Node& node) const {
+  if (&node == tracking_.get()) return frames_->drops();
+  if (&node == mapping_.get()) return to_map_->drops();
+  if (&node == composing_.get()) return to_compose_->drops();
+  if (&node == drawing_.get()) return scenes_->drops();
+  return 0;
+}
+
+std::vector<render::StageRow> Workspace::stage_rows() {
+  std::vector<render::StageRow> rows;
+  for (Node* node : nodes()) {
+    const LatencyHistogram& spent = node->statistics().processing;
+    rows.push_back({node->name(), node->statistics().frames.load(), drops(*node),
+                    spent.percentile(0.5), spent.percentile(0.95), spent.percentile(0.99)});
+  }
+  return rows;
+}
+
+Result<RunSummary> Workspace::run() {
+  if (auto status = journal_.open(options_.trajectory); !status) return status.error();
+  const auto start = std::chrono::steady_clock::now();
+  {
+    const InterruptGuard guard([this] { capture_.stop(); });
+    config_.threads ? run_threaded(nodes()) : run_in_turns(nodes());
+  }
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+  const RunSummary result = summary(spent.count());
+  if (auto status = journal_.close(); !status) return status.error();
+  if (auto status = write_stats(result); !status) return status.error();
+  if (!options_.map.empty() && mapping_stage_) {
+    if (auto status = mapping_stage_->save(options_.map); !status) return status.error();
+  }
+  if (auto status = first_failure(); !status) return status.error();
+  return result;
+}
+
+RunSummary Workspace::summary(double seconds) {
+  RunSummary result;
+  result.frames = journal_.frames();
+  result.tracked_frames = journal_.tracked_frames();
+  result.seconds = seconds;
+  result.latency_p50 = drawing_->latency().percentile(0.5);
+  result.latency_p95 = drawing_->latency().percentile(0.95);
+  return result;
+}
+
+Status Workspace::write_stats(const RunSummary& result) {
+  if (options_.stats.empty()) return ok();
+  nlohmann::json stages;
+  for (Node* node : nodes()) {
+    const StageStatistics& s = node->statistics();
+    stages[node->name()] = {
+        {"frames", s.frames.load()},           {"drops", drops(*node)},
+        {"faults", s.faults.load()},           {"mean", s.processing.mean()},
+        {"p50", s.processing.percentile(0.5)}, {"p95", s.processing.percentile(0.95)},
+        {"p99", s.processing.percentile(0.99)}};
+  }
+  const LatencyHistogram& latency = drawing_->latency();
+  const nlohmann::json stats = {
+      {"frames", result.frames},
+      {"tracked_frames", result.tracked_frames},
+      {"seconds", result.seconds},
+      {"rate", result.seconds > 0 ? static_cast<double>(result.frames) / result.seconds : 0},
+      {"latency",
+       {{"p50", latency.percentile(0.5)},
+        {"p95", latency.percentile(0.95)},
+        {"p99", latency.percentile(0.99)}}},
+      {"peak_memory_mb", peak_memory_mb()},
+      {"stages", stages}};
+  std::ofstream out(options_.stats);
+  out << stats.dump(2) << "\n";
+  if (!out.flush()) return Error{"cannot be written", options_.stats, "check folder and disk"};
+  return ok();
+}
+
+Status Workspace::first_failure() {
+  if (capture_.failure()) return *capture_.failure();
+  if (drawing_->failure()) return *drawing_->failure();
+  return ok();
+}
+
+}  // namespace
+
+Result<RunSummary> run_workspace(Rig& rig, Presenter& presenter, EventLog& log,
+                                 const Config& config, const WorkspaceOptions& options) {
+  return Workspace(rig, presenter, log, config, options).run();
+}
+
+}  // namespace armsreach::app

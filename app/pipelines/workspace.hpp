@@ -1,0 +1,40 @@
+// The workspace experience: a depth camera tracked against the map it builds, with things that a
+// person stands in that map. Capture, tracking, mapping, composing and drawing, each a stage.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "app/pipelines/presenter.hpp"
+#include "app/runtime/event_log.hpp"
+#include "app/runtime/wiring.hpp"
+#include "app/session/config.hpp"
+#include "devices/rig.hpp"
+#include "vision/core/result.hpp"
+
+namespace armsreach::app {
+
+struct WorkspaceOptions {
+  std::string sensor = "main";  // of the rig, that is tracked and shown
+  Pace pace = Pace::live;
+  std::optional<std::int64_t> frames;
+  std::string trajectory;  // files to write, or ""
+  std::string stats;
+  std::string map;
+  bool progress = false;  // a line on the terminal once a second
+};
+
+// What a run came to, also written as JSON with `stats`.
+struct RunSummary {
+  std::int64_t frames = 0;          // that came out of the tracker
+  std::int64_t tracked_frames = 0;  // with a pose that can be trusted
+  double seconds = 0;               // wall time
+  double latency_p50 = 0;           // s, from frame read to overlay drawn
+  double latency_p95 = 0;
+};
+
+Result<RunSummary> run_workspace(Rig& rig, Presenter& presenter, EventLog& log,
+                                 const Config& config, const WorkspaceOptions& options);
+
+}  // namespace armsreach::app

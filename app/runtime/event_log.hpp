@@ -1,0 +1,31 @@
+// Where events go: a JSON Lines file, when asked for, and the last few for the panels.
+#pragma once
+
+#include <deque>
+#include <fstream>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "vision/core/event.hpp"
+#include "vision/core/result.hpp"
+
+namespace armsreach::app {
+
+class EventLog {
+ public:
+  Status open(const std::string& path);  // "" keeps events in memory only
+  void write(const Event& event);        // from any thread
+  std::vector<Event> recent() const;     // newest last
+  // Says whether everything reached the disk.
+  Status close();
+
+ private:
+  static constexpr std::size_t kRecent = 16;
+  mutable std::mutex mutex_;
+  std::string path_;
+  std::ofstream file_;
+  std::deque<Event> recent_;
+};
+
+}  // namespace armsreach::app

@@ -1,0 +1,114 @@
+// A stage is a pure step with a name; a node is a stage with its connections. The same node runs on
+// a thread of its own (live, or in lock-step) or takes turns with others in one loop.
+#pragma once
+
+#include <chrono>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/runtime/connection.hpp"
+#include "app/runtime/statistics.hpp"
+
+namespace armsreach::app {
+
+template <class Input, class Output>
+class Stage {
+ public:
+  virtual ~Stage() = default;
+  virtual std::string name() const = 0;
+  // One output for each input. An exception becomes a fault event and a default Output.
+  virtual Output process(const Input& input) = 0;
+};
+
+// Tells of an exception in a stage: (stage, what it said).
+using FaultHandler = std::function<void(const std::string&, const std::string&)>;
+
+class Node {
+ public:
+  Node(std::string name, FaultHandler fault) : name_(std::move(name)), fault_(std::move(fault)) {}
+  virtual ~Node() = default;
+  Node(const Node&) = delete;
+  Node& operator=(const Node&) = delete;
+
+  // Takes one input, waiting for it, and gives one output. False at the end, with outputs closed.
+  virtual bool turn() = 0;
+
+  const std::string& name() const { return name_; }
+  StageStatistics& statistics() { return statistics_; }
+
+ protected:
+  // Runs `step`, timed and guarded; false when it threw.
+  template <class Step>
+  bool guarded(Step step) {
+    const auto start = std::chrono::steady_clock::now();
+    bool good = true;
+    try {
+      step();
+    } catch (const std::exception& e) {
+      good = false;
+      statistics_.faults.fetch_add(1);
+      fault_(name_, e.what());
+    }
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+    statistics_.processing.record(spent.count());
+    statistics_.frames.fetch_add(1);
+    return good;
+  }
+
+ private:
+  std::string name_;
+  FaultHandler fault_;
+  StageStatistics statistics_;
+};
+
+// One output to any number of connections.
+template <class T>
+class Outlet {
+ public:
+  void connect(std::shared_ptr<Connection<T>> to) { connections_.push_back(std::move(to)); }
+  void push(const T& value) {
+    for (auto& connection : connections_) connection->push(value);
+  }
+  void close() {
+    for (auto& connection : connections_) connection->close();
+  }
+
+ private:
+  std::vector<std::shared_ptr<Connection<T>>> connections_;
+};
+
+template <class Input, class Output>
+class StageNode final : public Node {
+ public:
+  // `take` joins the stage's inputs: nothing at the end of the one that drives it.
+  using Take = std::function<std::optional<Input>()>;
+
+  StageNode(std::unique_ptr<Stage<Input, Output>> stage, Take take, FaultHandler fault)
+      : Node(stage->name(), std::move(fault)), stage_(std::move(stage)), take_(std::move(take)) {}
+
+  Outlet<Output>& outlet() { return outlet_; }
+
+  bool turn() override {
+    std::optional<Input> input = take_();
+    if (!input) {
+      outlet_.close();
+      return false;
+    }
+    Output output{};
+    guarded([&] { output = stage_->process(*input); });
+    outlet_.push(output);
+    return true;
+  }
+
+ private:
+  std::unique_ptr<Stage<Input, Output>> stage_;
+  Take take_;
+  Outlet<Output> outlet_;
+};
+
+}  // namespace armsreach::app

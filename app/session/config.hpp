@@ -1,0 +1,49 @@
+// The configuration file: what a run can be told beyond its command line. Unknown keys are refused
+// by name, so that a misspelt one is never silently ignored.
+#pragma once
+
+#include <cstdint>
+#include <istream>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "vision/core/result.hpp"
+
+namespace armsreach::app {
+
+// What a person's click would do, done at a frame.
+struct Action {
+  std::int64_t frame = 0;
+  Eigen::Vector2d click{0, 0};  // px of the view
+  std::string view = "live";    // live, map, top, front, side
+  std::string insert;           // a mesh name; empty: select what is there
+  std::string layout;           // show this layout from here on, instead of a click
+};
+
+struct TrackingConfig {
+  double alpha = 0.95;  // weight of depth against intensity, 0..1
+  int iterations = 5;   // at each resolution
+  int width = 80;       // px of the finest images aligned: 80 or 160
+};
+
+struct MappingConfig {
+  bool enabled = true;
+  double resolution = 0.01;  // m
+};
+
+struct Config {
+  std::string layout = "wearer";  // or "operator"
+  int width = 0;                  // px of the picture; 0: the video's, or 1280x720 for an operator
+  int height = 0;
+  bool threads = true;  // false: one loop turns every stage (only with --pace every-frame)
+  int lag = 3;          // frames between a frame and the map it is tracked against, every-frame
+  TrackingConfig tracking;
+  MappingConfig mapping;
+  std::vector<Action> actions;
+};
+
+Result<Config> read_config(std::istream& in, const std::string& where);
+
+}  // namespace armsreach::app

@@ -1,0 +1,1 @@
+vec3 with_highlight(vec3 color, vec3 light) { return color; }

@@ -1,0 +1,24 @@
+// Reading single image files whole: a file that ends early is an error, never a half-grey image.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <opencv2/core/mat.hpp>
+
+#include "vision/core/camera.hpp"
+#include "vision/core/result.hpp"
+
+namespace armsreach {
+
+// CV_8UC3 BGR, or CV_8UC1 of a grey file.
+Result<cv::Mat> read_color_image(const std::filesystem::path& file);
+
+// 16-bit single-channel file to CV_32F metres. 0 and the saturated 65535 are unknown: NaN.
+Result<cv::Mat> read_depth_image(const std::filesystem::path& file, double units_per_metre);
+
+// That images have their camera's size; `kind` ("colour", "depth") and `where` are for the error.
+Status check_size(const cv::Size& size, const Camera& camera, const std::string& kind,
+                  const std::string& where);
+
+}  // namespace armsreach

@@ -1,0 +1,33 @@
+#include "devices/sim/gpu_world.hpp"
+
+namespace armsreach::sim {
+
+GpuWorld::GpuWorld(const render::Gl& gl, const WorldMesh& mesh)
+    : gl_(&gl), things_(mesh.things), array_(gl), vertices_(gl), indices_(gl) {
+  array_.bind();
+  vertices_.bind(GL_ARRAY_BUFFER);
+  gl.BufferData(GL_ARRAY_BUFFER,
+                static_cast<GLsizeiptr>(mesh.vertices.size() * sizeof(WorldVertex)),
+                mesh.vertices.data(), GL_STATIC_DRAW);
+  indices_.bind(GL_ELEMENT_ARRAY_BUFFER);
+  gl.BufferData(GL_ELEMENT_ARRAY_BUFFER,
+                static_cast<GLsizeiptr>(mesh.indices.size() * sizeof(std::uint32_t)),
+                mesh.indices.data(), GL_STATIC_DRAW);
+  const auto attribute = [&gl](GLuint location, GLint size, std::size_t offset) {
+    gl.EnableVertexAttribArray(location);
+    gl.VertexAttribPointer(location, size, GL_FLOAT, GL_FALSE, sizeof(WorldVertex),
+                           reinterpret_cast<const void*>(offset));
+  };
+  attribute(0, 3, offsetof(WorldVertex, position));
+  attribute(1, 3, offsetof(WorldVertex, normal));
+  attribute(2, 2, offsetof(WorldVertex, texture));
+  attribute(3, 2, offsetof(WorldVertex, light));
+}
+
+void GpuWorld::draw(std::size_t thing) const {
+  const MeshRange& range = things_[thing];
+  gl_->DrawElements(GL_TRIANGLES, static_cast<GLsizei>(range.count), GL_UNSIGNED_INT,
+                    reinterpret_cast<const void*>(range.first * sizeof(std::uint32_t)));
+}
+
+}  // namespace armsreach::sim

@@ -1,0 +1,134 @@
+// The text of a simulated source: "sim:WORLD,key=value,...".
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "devices/sim/sim_source.hpp"
+#include "devices/sim/worlds.hpp"
+
+namespace armsreach {
+namespace {
+
+// Numbers of the sensor that an option replaces.
+struct SensorOption {
+  const char* key;
+  double sim::SensorDescription::*number;
+  double low;
+  double high;
+};
+constexpr SensorOption kSensorOptions[] = {{"rate", &sim::SensorDescription::rate, 0.1, 1000},
+                                           {"near", &sim::SensorDescription::nearest, 0, 100},
+                                           {"far", &sim::SensorDescription::farthest, 0.01, 100}};
+
+Status apply_noise(const SourceSpec& spec, sim::SensorDescription& sensor) {
+  const auto text = option(spec, "noise");
+  if (!text) return ok();
+  if (*text == "none" || *text == "kinect") {
+    sensor.noise = *text == "kinect" ? 1 : 0;
+    return ok();
+  }
+  auto factor = number_option(spec, "noise", 1, 0, 100);
+  if (!factor) {
+    return Error{"option 'noise' is '" + *text + "'", text_of(spec),
+                 "give none, kinect, or a factor of the Kinect's from 0 to 100"};
+  }
+  sensor.noise = *factor;
+  return ok();
+}
+
+// A size keeps the field of view; without the other side it keeps the shape too.
+Status apply_size(const SourceSpec& spec, sim::SensorDescription& sensor) {
+  auto width = number_option(spec, "width", 0, 16, 4096);
+  if (!width) return width.error();
+  auto height = number_option(spec, "height", 0, 16, 4096);
+  if (!height) return height.error();
+  const double shape = static_cast<double>(sensor.height) / sensor.width;
+  if (*width == 0 && *height > 0) *width = std::round(*height / shape);
+  if (*height == 0 && *width > 0) *height = std::round(*width * shape);
+  if (*width > 0) {
+    sensor.width = static_cast<int>(*width);
+    sensor.height = static_cast<int>(*height);
+  }
+  return ok();
+}
+
+Status apply_sensor(const SourceSpec& spec, sim::SensorDescription& sensor) {
+  if (auto status = apply_noise(spec, sensor); !status) return status;
+  if (auto status = apply_size(spec, sensor); !status) return status;
+  for (const SensorOption& one : kSensorOptions) {
+    auto value = number_option(spec, one.key, sensor.*one.number, one.low, one.high);
+    if (!value) return value.error();
+    sensor.*one.number = *value;
+  }
+  if (sensor.farthest > sensor.nearest) return ok();
+  return Error{"the depth range ends before it begins", text_of(spec),
+               "give near and far in metres, near < far"};
+}
+
+Status apply_loop(const SourceSpec& spec, const sim::World& world, sim::SimOptions& options) {
+  const auto text = option(spec, "loop");
+  if (!text) return ok();
+  if (*text != "endless") {
+    return Error{"option 'loop' is '" + *text + "'", text_of(spec),
+                 "give loop=endless, or leave it out to stop after once along the path"};
+  }
+  if (!world.path.closed) {
+    return Error{"the path of '" + world.name + "' does not close", text_of(spec),
+                 "leave loop out"};
+  }
+  options.endless = true;
+  return ok();
+}
+
+Result<std::unique_ptr<Source>> open_sim(const SourceSpec& spec, const OpenOptions& open_options) {
+  if (open_options.camera) {
+    return Error{"a simulated camera needs no calibration", text_of(spec),
+                 "leave --camera out; width and height are options of the source"};
+  }
+  auto world = sim::load_world(spec.place);
+  if (!world) return world.error();
+  if (auto status = apply_sensor(spec, world->sensor); !status) return status.error();
+  sim::SimOptions options;
+  options.sensor_name = open_options.sensor;
+  auto seed = number_option(spec, "seed", 1, 0, 1e15);
+  if (!seed) return seed.error();
+  auto speed = number_option(spec, "speed", 1, 0.01, 100);
+  if (!speed) return speed.error();
+  auto frames = number_option(spec, "frames", 0, 1, 1e12);
+  if (!frames) return frames.error();
+  options.seed = static_cast<std::uint64_t>(*seed);
+  options.speed = *speed;
+  if (*frames > 0) options.frames = static_cast<std::int64_t>(*frames);
+  if (auto status = apply_loop(spec, *world, options); !status) return status.error();
+  return sim::make_sim_source(*world, options);
+}
+
+std::vector<Availability> probe_worlds() {
+  std::vector<Availability> found;
+  for (const std::string& name : sim::world_names()) {
+    Availability one;
+    one.spec = "sim:" + name;
+    const auto world = sim::load_world(name);
+    one.usable = world.ok();
+    one.detail = world ? world->about : world.error().message();
+    found.push_back(one);
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<SourceKind> sim_source_kinds() {
+  SourceKind kind;
+  kind.name = "sim";
+  kind.usage =
+      "sim:WORLD[,seed=N][,noise=none|kinect|FACTOR][,speed=X][,frames=N][,loop=endless]"
+      "[,width=PX][,height=PX][,rate=HZ][,near=M][,far=M]";
+  kind.option_keys = {"seed",  "noise",  "speed", "frames", "loop",
+                      "width", "height", "rate",  "near",   "far"};
+  kind.open = open_sim;
+  kind.probe = probe_worlds;
+  return {kind};
+}
+
+}  // namespace armsreach

@@ -1,0 +1,29 @@
+#include "devices/sim/worlds.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "devices/sim/world_yaml.hpp"
+#include "render/assets.hpp"
+
+namespace armsreach::sim {
+
+const std::vector<std::string>& world_names() {
+  static const std::vector<std::string> names{"bench", "near"};
+  return names;
+}
+
+Result<World> load_world(const std::string& name) {
+  const auto& names = world_names();
+  if (std::find(names.begin(), names.end(), name) == names.end()) {
+    std::string list;
+    for (const std::string& known : names) list += (list.empty() ? "" : ", ") + known;
+    return Error{"there is no simulated world '" + name + "'", "sim:" + name,
+                 "the worlds are " + list};
+  }
+  const std::string file = "worlds/" + name + ".yaml";
+  std::istringstream text{std::string(render::asset(file))};
+  return read_world_yaml(text, file);
+}
+
+}  // namespace armsreach::sim

@@ -1,0 +1,284 @@
+// Insertion and reference view beside stock OctoMap: on the same rays (insertPointCloud, castRay)
+// and on the same keys (updateNode). Each benchmark does one step of ours and one of the peer's in
+// turn and reports both in milliseconds and their ratio. The frames are a recording's, with true
+// poses, or without recordings a simulated room's.
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <time.h>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+#include <octomap/OcTree.h>
+#include <opencv2/imgcodecs.hpp>
+
+#include "tests/support/recordings.hpp"
+#include "vision/core/camera_yaml.hpp"
+#include "vision/core/pyramid.hpp"
+#include "vision/core/trajectory.hpp"
+#include "vision/mapping/ray_cast.hpp"
+#include "vision/mapping/voxel_map.hpp"
+
+namespace {
+
+using armsreach::Camera;
+using armsreach::Pose;
+using namespace armsreach::mapping;
+
+constexpr int kFrames = 4;  // of the recording, ten apart
+
+struct Shot {
+  cv::Mat depth;
+  cv::Mat intensity;
+  Pose world_from_camera;
+};
+
+struct Shots {
+  Camera camera;
+  std::vector<Shot> shots;
+};
+
+Shots read_recording(const std::filesystem::path& folder, int width) {
+  std::ifstream camera_file(folder / "camera.yaml");
+  const Camera camera = armsreach::read_camera_yaml(camera_file, "camera.yaml").value().camera;
+  std::ifstream truth_file(folder / "groundtruth.txt");
+  const auto truth = armsreach::read_tum_trajectory(truth_file, "groundtruth.txt").value();
+  std::ifstream list(folder / "associations.txt");
+  Shots out{armsreach::resized(camera, width, width * 3 / 4), {}};
+  std::string line;
+  for (int i = 0; std::getline(list, line) && i < 10 * kFrames; ++i) {
+    if (i % 10 != 0) continue;
+    std::istringstream words(line);
+    double time = 0;
+    std::string color;
+    std::string depth;
+    words >> time >> color >> time >> depth;
+    cv::Mat metres;
+    cv::imread(folder / depth, cv::IMREAD_UNCHANGED)
+        .convertTo(metres, CV_32F, 1 / camera.depth_units_per_metre);
+    metres.setTo(std::numeric_limits<float>::quiet_NaN(), metres == 0);
+    const int factor = camera.width / width;
+    out.shots.push_back({armsreach::reduced_depth(metres, factor),
+                         armsreach::reduced_intensity(cv::imread(folder / color), factor),
+                         truth[static_cast<std::size_t>(i)].world_from_camera});
+  }
+  return out;
+}
+
+// From the middle of a room of 4 x 3 x 4 m, turning.
+Shots simulate_room(int width) {
+  Shots out{armsreach::resized(armsreach::pinhole(640, 480, 585, 585, 319.5, 239.5), width,
+                               width * 3 / 4),
+            {}};
+  const Eigen::Array3d half(2, 1.5, 2);
+  for (int i = 0; i < kFrames; ++i) {
+    const Pose pose(Eigen::Quaterniond(Eigen::AngleAxisd(0.1 * i, Eigen::Vector3d::UnitY())),
+                    {0.05 * i, 0, 0});
+    cv::Mat depth(out.camera.height, out.camera.width, CV_32FC1);
+    for (int v = 0; v < depth.rows; ++v) {
+      for (int u = 0; u < depth.cols; ++u) {
+        const Eigen::Array3d ray =
+            (pose.rotation() * armsreach::unproject(out.camera, {u, v})).array();
+        depth.at<float>(v, u) =
+            static_cast<float>(((half * ray.sign() - pose.translation().array()) / ray).minCoeff());
+      }
+    }
+    out.shots.push_back({depth, cv::Mat(depth.size(), CV_32FC1, cv::Scalar(0.5)), pose});
+  }
+  return out;
+}
+
+Shots read_shots(int width) {
+  const auto folder = armsreach::test::recording("rgbd/redkitchen");
+  return folder ? read_recording(*folder, width) : simulate_room(width);
+}
+
+// Of this thread's processor time: what else runs on the machine does not count.
+double milliseconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) * 1e-6;
+}
+
+void report(benchmark::State& state, double ours, double peer, double steps) {
+  state.counters["ours_ms"] = ours / steps;
+  state.counters["peer_ms"] = peer / steps;
+  state.counters["times_faster"] = peer / ours;
+}
+
+VoxelMapOptions options_at(double resolution) {
+  VoxelMapOptions options;
+  options.resolution = resolution;
+  options.max_blocks = 1'000'000;
+  return options;
+}
+
+octomap::point3d point(const Eigen::Vector3d& p) {
+  return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
+}
+
+octomap::Pointcloud cloud_of(const Shots& shots, const Shot& shot) {
+  octomap::Pointcloud cloud;
+  for (int v = 0; v < shot.depth.rows; ++v) {
+    for (int u = 0; u < shot.depth.cols; ++u) {
+      const double depth = static_cast<double>(shot.depth.at<float>(v, u));
+      if (!(depth > 0)) continue;
+      cloud.push_back(
+          point(shot.world_from_camera * (depth * armsreach::unproject(shots.camera, {u, v}))));
+    }
+  }
+  return cloud;
+}
+
+// Arguments: resolution in millimetres, image width.
+void insert_beside_insert_point_cloud(benchmark::State& state) {
+  const double resolution = static_cast<double>(state.range(0)) / 1000;
+  const Shots shots = read_shots(static_cast<int>(state.range(1)));
+  VoxelMap map(options_at(resolution));
+  octomap::OcTree tree(resolution);
+  double ours = 0;
+  double peer = 0;
+  double steps = 0;
+  for (auto _ : state) {
+    for (const Shot& shot : shots.shots) {
+      const octomap::Pointcloud cloud = cloud_of(shots, shot);
+      double start = milliseconds();
+      map.insert(shot.depth, shot.intensity, cv::Mat(), shots.camera, shot.world_from_camera);
+      ours += milliseconds() - start;
+      start = milliseconds();
+      tree.insertPointCloud(cloud, point(shot.world_from_camera.translation()));
+      peer += milliseconds() - start;
+      ++steps;
+    }
+  }
+  report(state, ours, peer, steps);
+  state.counters["map_MB"] =
+      static_cast<double>(map.grid().blocks.block_count() * sizeof(Block)) / 1e6;
+}
+
+void cast_beside_cast_ray(benchmark::State& state) {
+  const double resolution = static_cast<double>(state.range(0)) / 1000;
+  const Shots shots = read_shots(static_cast<int>(state.range(1)));
+  VoxelMap map(options_at(resolution));
+  octomap::OcTree tree(resolution);
+  for (const Shot& shot : shots.shots) {
+    map.insert(shot.depth, shot.intensity, cv::Mat(), shots.camera, shot.world_from_camera);
+    tree.insertPointCloud(cloud_of(shots, shot), point(shot.world_from_camera.translation()));
+  }
+  double ours = 0;
+  double peer = 0;
+  double steps = 0;
+  for (auto _ : state) {
+    for (const Shot& shot : shots.shots) {
+      double start = milliseconds();
+      benchmark::DoNotOptimize(cast(map.grid(), shots.camera, shot.world_from_camera));
+      ours += milliseconds() - start;
+      start = milliseconds();
+      const octomap::point3d origin = point(shot.world_from_camera.translation());
+      for (int v = 0; v < shots.camera.height; ++v) {
+        for (int u = 0; u < shots.camera.width; ++u) {
+          octomap::point3d end;
+          benchmark::DoNotOptimize(tree.castRay(
+              origin,
+              point(shot.world_from_camera.rotation() * armsreach::unproject(shots.camera, {u, v})),
+              end, true, 8));
+        }
+      }
+      peer += milliseconds() - start;
+      ++steps;
+    }
+  }
+  report(state, ours, peer, steps);
+}
+
+struct Update {
+  octomap::OcTreeKey key;
+  float log_odds;
+};
+
+template <class F>
+void for_each_seen(const VoxelGrid& grid, F&& f) {
+  for (const BlockKey& key : grid.blocks.keys()) {
+    const Block& block = *grid.blocks.find(key);
+    for (int at = 0; at < kBlockVoxels; ++at) {
+      if (block.log_odds(at) == 0) continue;
+      const VoxelInBlock voxel = voxel_at(at);
+      const auto axis = [](int block_index, int offset) {
+        return static_cast<octomap::key_type>(kBlockEdge * block_index + offset + 32768);
+      };
+      f(Update{{axis(key.x, voxel.x), axis(key.y, voxel.y), axis(key.z, voxel.z)},
+               static_cast<float>(block.log_odds(at)) * kLogOddsUnit});
+    }
+  }
+}
+
+// What one frame alone does to a map: the keys and their log-odds.
+std::vector<Update> updates_of(const Shots& shots, const Shot& shot,
+                               const VoxelMapOptions& options) {
+  VoxelMap one(options);
+  one.insert(shot.depth, shot.intensity, cv::Mat(), shots.camera, shot.world_from_camera);
+  std::vector<Update> updates;
+  for_each_seen(one.grid(), [&](const Update& update) { updates.push_back(update); });
+  return updates;
+}
+
+double intersection_over_union(const VoxelMap& map, const octomap::OcTree& tree) {
+  const auto threshold = static_cast<float>(log_odds(map.options().occupied_above));
+  double both = 0;
+  double either = 0;
+  for_each_seen(map.grid(), [&](const Update& ours) {
+    const octomap::OcTreeNode* theirs = tree.search(ours.key);
+    const bool a = ours.log_odds > threshold;
+    const bool b = theirs && theirs->getLogOdds() > threshold;
+    both += a && b;
+    either += a || b;
+  });
+  return both / either;
+}
+
+void insert_beside_update_node(benchmark::State& state) {
+  VoxelMapOptions options = options_at(static_cast<double>(state.range(0)) / 1000);
+  options.carve_every = 0;
+  const Shots shots = read_shots(static_cast<int>(state.range(1)));
+  VoxelMap map(options);
+  octomap::OcTree tree(options.resolution);
+  tree.setClampingThresMin(options.least_certain);
+  tree.setClampingThresMax(options.most_certain);
+  std::vector<std::vector<Update>> updates;
+  for (const Shot& shot : shots.shots) updates.push_back(updates_of(shots, shot, options));
+  double ours = 0;
+  double peer = 0;
+  double steps = 0;
+  for (auto _ : state) {
+    for (std::size_t i = 0; i < updates.size(); ++i) {
+      const Shot& shot = shots.shots[i];
+      double start = milliseconds();
+      map.insert(shot.depth, shot.intensity, cv::Mat(), shots.camera, shot.world_from_camera);
+      ours += milliseconds() - start;
+      start = milliseconds();
+      for (const Update& update : updates[i]) tree.updateNode(update.key, update.log_odds, true);
+      tree.updateInnerOccupancy();
+      peer += milliseconds() - start;
+      ++steps;
+    }
+  }
+  report(state, ours, peer, steps);
+  state.counters["keys"] = static_cast<double>(updates.front().size());
+  state.counters["IoU"] = intersection_over_union(map, tree);
+}
+
+void resolutions_and_sizes(benchmark::internal::Benchmark* bench) {
+  for (const int millimetres : {20, 10, 5}) bench->Args({millimetres, 80});
+  for (const int width : {160, 320, 640}) bench->Args({10, width});
+  bench->ArgNames({"mm", "width"})->Unit(benchmark::kMillisecond)->Iterations(1);
+}
+
+BENCHMARK(insert_beside_insert_point_cloud)->Apply(resolutions_and_sizes);
+BENCHMARK(insert_beside_update_node)->Apply(resolutions_and_sizes);
+BENCHMARK(cast_beside_cast_ray)->Apply(resolutions_and_sizes);
+
+}  // namespace

@@ -1,0 +1,67 @@
+#include "app/session/config.hpp"
+
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+namespace armsreach::app {
+namespace {
+
+Result<Config> read(const std::string& text) {
+  std::istringstream in(text);
+  return read_config(in, "with-teapot.yaml");
+}
+
+TEST(Config, AnEmptyFileIsAllDefaults) {
+  const auto config = read("");
+  ASSERT_TRUE(config) << config.error().message();
+  EXPECT_TRUE(config->mapping.enabled);
+  EXPECT_EQ(config->tracking.alpha, 0.95);
+}
+
+TEST(Config, ReadsWhatItDocuments) {
+  const auto config = read(
+      "layout: operator\nsize: [1280, 720]\nthreads: false\nlag: 2\n"
+      "tracking: {alpha: 1, iterations: 7, width: 160}\nmapping: {enabled: false, resolution: 0.02}\n"
+      "actions: [{frame: 30, click: [320, 240.5], view: live, insert: teapot}]\n");
+  ASSERT_TRUE(config) << config.error().message();
+  EXPECT_EQ(config->layout, "operator");
+  EXPECT_EQ(config->height, 720);
+  EXPECT_FALSE(config->threads);
+  EXPECT_EQ(config->tracking.width, 160);
+  EXPECT_FALSE(config->mapping.enabled);
+  ASSERT_EQ(config->actions.size(), 1U);
+  EXPECT_EQ(config->actions[0].frame, 30);
+  EXPECT_EQ(config->actions[0].click.y(), 240.5);
+  EXPECT_EQ(config->actions[0].insert, "teapot");
+}
+
+TEST(Config, RefusesByName) {
+  const std::vector<std::pair<std::string, std::string>> broken = {
+      {"mappings: {enabled: true}", "unknown key 'mappings'"},
+      {"mapping: {resolutoin: 0.01}", "unknown key 'mapping.resolutoin'"},
+      {"actions: [{frame: 1, insret: cube}]", "unknown key 'actions[0].insret'"},
+      {"mapping: {resolution: -1}", "mapping.resolution"},
+      {"mapping: {resolution: .nan}", "mapping.resolution"},
+      {"tracking: {alpha: 2}", "tracking.alpha"},
+      {"tracking: 7", "not a map"},
+      {"layout: fancy", "layout"},
+      {"size: [12]", "size"},
+      {"size: [1, 1]", "size"},
+      {"actions: {frame: 1}", "actions"},
+      {"actions: [{frame: -1}]", "actions[0].frame"},
+      {"actions: [{view: left}]", "actions[0].view"},
+      {"[1, 2", "YAML"},
+      {"- 1", "not a map"},
+  };
+  for (const auto& [text, expected] : broken) {
+    const auto config = read(text);
+    ASSERT_FALSE(config) << text;
+    EXPECT_NE(config.error().message().find(expected), std::string::npos)
+        << text << " -> " << config.error().message();
+    EXPECT_EQ(config.error().where, "with-teapot.yaml");
+  }
+}
+
+}  // namespace
+}  // namespace armsreach::app

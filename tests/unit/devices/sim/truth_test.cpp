@@ -1,0 +1,111 @@
+// Depth and pose of every frame against rays cast through the world's data.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "devices/open.hpp"
+#include "devices/sim/path.hpp"
+#include "devices/sim/sim_source.hpp"
+#include "devices/sim/worlds.hpp"
+#include "tests/unit/devices/sim/ray_cast.hpp"
+
+namespace armsreach::sim {
+namespace {
+
+std::unique_ptr<Source> open(const std::string& text) {
+  auto source = open_source(*parse_source_spec(text), {}, sim_source_kinds());
+  EXPECT_TRUE(source.ok()) << source.error().message();
+  return std::move(*source);
+}
+
+// The thing and z-depth that a pixel's ray meets; nothing where the pixel's corners see another
+// thing than its centre (an edge) or a turned shape, which the rays know only roughly.
+std::optional<Hit> clear_hit(const World& world, const Frame& frame, const Eigen::Vector2d& pixel) {
+  const Pose& pose = *frame.world_from_camera;
+  const auto cast = [&](double dx, double dy) {
+    const Eigen::Vector3d ray =
+        unproject(frame.sensor->camera(), pixel + Eigen::Vector2d(dx, dy));  // z = 1
+    return cast_ray(world, pose.translation(), pose.rotation() * ray);
+  };
+  const std::optional<Hit> centre = cast(0, 0);
+  if (!centre || !centre->exact) return std::nullopt;
+  for (const double dx : {-0.6, 0.6}) {
+    for (const double dy : {-0.6, 0.6}) {
+      const std::optional<Hit> corner = cast(dx, dy);
+      if (!corner || corner->thing != centre->thing) return std::nullopt;
+    }
+  }
+  return centre;
+}
+
+struct DepthErrors {
+  std::vector<double> sorted;
+  int unknown = 0;
+};
+
+DepthErrors depth_errors(const World& world, const Frame& frame) {
+  DepthErrors errors;
+  for (int y = 0; y < frame.depth.rows; ++y) {
+    for (int x = 0; x < frame.depth.cols; ++x) {
+      const auto hit = clear_hit(world, frame, Eigen::Vector2d(x, y));
+      if (!hit) continue;
+      const double depth = static_cast<double>(frame.depth.at<float>(y, x));
+      if (std::isnan(depth)) {
+        ++errors.unknown;
+      } else {
+        errors.sorted.push_back(std::abs(depth - hit->distance));
+      }
+    }
+  }
+  std::sort(errors.sorted.begin(), errors.sorted.end());
+  return errors;
+}
+
+class Truth : public testing::TestWithParam<std::string> {};
+
+TEST_P(Truth, DepthIsWhatRaysThroughTheWorldMeet) {
+  const World world = *load_world(GetParam());
+  const auto source =
+      open("sim:" + GetParam() + ",noise=none,near=0,far=50,width=320,speed=40,frames=5");
+  int frames = 0;
+  while (true) {
+    auto frame = source->next();
+    ASSERT_TRUE(frame.ok()) << frame.error().message();
+    if (!*frame) break;
+    ++frames;
+    const DepthErrors errors = depth_errors(world, **frame);
+    const std::size_t count = errors.sorted.size();
+    ASSERT_GT(count, 320U * 240U / 2) << "most of the picture is boxes, cylinders and planes";
+    EXPECT_EQ(errors.unknown, 0);
+    // Single precision near 2 m is 0.1 um. A rasteriser places corners on a grid of 1/256 px, which
+    // at a grazing angle is worth some tenths of a millimetre, and a tin's side is a polygon's.
+    EXPECT_LT(errors.sorted[count / 2], 1e-5);
+    EXPECT_LT(errors.sorted[count * 999 / 1000], 5e-4);
+  }
+  EXPECT_EQ(frames, 5);
+}
+
+TEST_P(Truth, TheCameraKeepsItsDistanceAndLooksAtTheThings) {
+  const World world = *load_world(GetParam());
+  const CameraPath path(world.path, 1);
+  const bool near = GetParam() == "near";
+  for (double time = 0; time < path.duration(); time += 1 / world.sensor.rate) {
+    const Pose pose = path.world_from_camera(time);
+    EXPECT_GT(clearance(world, pose.translation()), near ? 0.15 : 0.4) << time;
+    const Eigen::Vector3d forward = pose.rotation() * Eigen::Vector3d::UnitZ();
+    const auto hit = cast_ray(world, pose.translation(), forward);
+    ASSERT_TRUE(hit.has_value()) << time;
+    EXPECT_GT(hit->distance, near ? 0.25 : 0.6) << time;
+    EXPECT_LT(hit->distance, near ? 0.9 : 2.2) << time;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Worlds, Truth, testing::ValuesIn(world_names()),
+                         [](const auto& one) { return one.param; });
+
+}  // namespace
+}  // namespace armsreach::sim
