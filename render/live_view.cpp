@@ -6,6 +6,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "render/scene_lines.hpp"
 #include "render/theme.hpp"
 
 namespace armsreach::render {
@@ -81,12 +82,7 @@ Status LiveView::draw(const Scene& scene, ObjectPainter& objects, const LinePain
       return drawn.error();
     target.bind();
     Lines trails;
-    for (const Trail& trail : scene.trails) {
-      const Eigen::Vector3f rgb = 255 * trail.color.cwiseMax(0.F).cwiseMin(1.F);
-      trails.fading_path(trail.points_in_world,
-                         {static_cast<std::uint8_t>(rgb.x()), static_cast<std::uint8_t>(rgb.y()),
-                          static_cast<std::uint8_t>(rgb.z()), 230});
-    }
+    add_trails(trails, scene);
     lines.draw(view, trails, 2);
   }
   features_.draw(view, scene.features);

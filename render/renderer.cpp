@@ -147,7 +147,7 @@ class SceneRenderer final : public Renderer {
     gl.ClearColor(background.x(), background.y(), background.z(), 1);
     gl.Clear(GL_COLOR_BUFFER_BIT);
     live_picture_.copy_to(picture_, desk.live.x, desk.live.y);
-    map_.copy_pictures(picture_, desk);
+    map_.compose(scene, lines_, picture_, desk);
     picture_.bind();
     ui_->begin(input, options_.width, options_.height);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
