@@ -61,8 +61,7 @@ ARMSREACH_INLINE void warp_lanes(const Planes& source, const Planes& target, con
       moved_gradient(warp, ray, rho, source.fx * lanes::load(source.inverse_depth_x + at),
                      source.fy * lanes::load(source.inverse_depth_y + at));
   // The gradient may be unknown where the point is not, and must not spoil it.
-  const auto smooth_source = gradient.denominator > 0.0F;
-  const Float denominator = smooth_source ? gradient.denominator : lanes::all(1.0F);
+  const Float denominator = gradient.denominator > 0.0F ? gradient.denominator : lanes::all(1.0F);
   const Float quotient = 1.0F / (qz * denominator);
   const Float per_z = quotient * denominator;
   const Float per_denominator = quotient * qz;
@@ -77,7 +76,9 @@ ARMSREACH_INLINE void warp_lanes(const Planes& source, const Planes& target, con
   // An unknown point is NaN in u and v, equal to nothing.
   const Float u_inside = lanes::min(lanes::max(u, Float{}), last_u);
   const Float v_inside = lanes::min(lanes::max(v, Float{}), last_v);
-  const auto inside = (u == u_inside) & (v == v_inside) & (qz > 0.0F);
+  Float nowhere = u == u_inside ? Float{} : unknown();
+  nowhere = v == v_inside ? nowhere : unknown();
+  nowhere = qz > 0.0F ? nowhere : unknown();
   const Int col = __builtin_convertvector(u_inside, Int);
   const Int row = __builtin_convertvector(v_inside, Int);
   const Float fx = u - __builtin_convertvector(col, Float);
@@ -88,20 +89,21 @@ ARMSREACH_INLINE void warp_lanes(const Planes& source, const Planes& target, con
   const Float steepest = lanes::max(lanes::abs(depth.x), lanes::abs(depth.y));
   const Float depth_gX = 0.5F * (target.fx * depth.x + per_denominator * gradient.X);
   const Float depth_gY = 0.5F * (target.fy * depth.y + per_denominator * gradient.Y);
-  const auto depth_known =
-      inside & smooth_source & (steepest <= target.greatest_step * depth.value);
+  Float depth_residual = depth.value - rho_warped + nowhere;
+  depth_residual = steepest <= target.greatest_step * depth.value ? depth_residual : unknown();
+  depth_residual = gradient.denominator > 0.0F ? depth_residual : unknown();
 
   const Sample grey = sample(target.intensity, target.stride, cell, fx, fy);
   const Float grey_gX =
       0.5F * (target.fx * grey.x + source.fx * lanes::load(source.intensity_x + at));
   const Float grey_gY =
       0.5F * (target.fy * grey.y + source.fy * lanes::load(source.intensity_y + at));
-  const Float grey_residual =
-      grey.value - lanes::load(source.intensity + at) - warp.intensity_offset;
-  const auto grey_known = inside & (grey_gX == grey_gX) & (grey_gY == grey_gY);
+  // Zero times a derivative is NaN where that is.
+  const Float grey_residual = grey.value - lanes::load(source.intensity + at) -
+                              warp.intensity_offset + nowhere + 0.0F * (grey_gX + grey_gY);
 
-  lanes::store(out.depth + at, depth_known ? depth.value - rho_warped : unknown());
-  lanes::store(out.intensity + at, grey_known ? grey_residual : unknown());
+  lanes::store(out.depth + at, depth_residual);
+  lanes::store(out.intensity + at, grey_residual);
   lanes::store(out.X + at, X);
   lanes::store(out.Y + at, Y);
   lanes::store(out.inverse_z + at, rho_warped);
@@ -124,14 +126,20 @@ void warp(const Planes& source, const Planes& target, const Warp& target_from_so
   }
 }
 
-struct Tukey {
-  Float weight, squares;  // the weight, and weight * r^2; zero for NaN
-};
+// Tukey's biweight; zero for NaN.
 ARMSREACH_INLINE Float tukey(Float residual, const Weighting& weighting) {
   const float per_cutoff = 1.0F / weighting.cutoff;
   const Float u = residual * per_cutoff;
   const Float inside = 1.0F - u * u;
-  return inside > 0.0F ? weighting.gain * inside * inside : Float{};
+  return inside > 0.0F ? inside * inside : Float{};
+}
+
+// The intensity's, which counts for nothing where there is another surface.
+ARMSREACH_INLINE Float intensity_tukey(Float residual, const Weighting& weighting,
+                                       Float depth_residual, Float depth_weight) {
+  const Float weight = tukey(residual, weighting);
+  const Float on_surface = depth_weight > 0.0F ? weight : Float{};
+  return depth_residual == depth_residual ? on_surface : weight;
 }
 
 // Derivative of a residual by a motion (translation, rotation) of the warped point q: with a the
@@ -159,22 +167,21 @@ ARMSREACH_INLINE void accumulate_lanes(const Residuals& in, int at, const Weight
   const Float rho = lanes::load(in.inverse_z + at);
   const Float depth_r = lanes::load(in.depth + at);
   const Float grey_r = lanes::load(in.intensity + at);
-  const Float depth_w = tukey(depth_r, depth);
-  const auto depth_known = depth_r == depth_r;
-  const auto no_surface = depth_known & (depth_w <= 0.0F) & (lanes::all(depth.gain) > 0.0F);
-  const Float grey_w = no_surface ? Float{} : tukey(grey_r, intensity);
-  const auto use_depth = depth_w > 0.0F;
-  const auto use_grey = grey_w > 0.0F;
+  const Float depth_t = tukey(depth_r, depth);
+  const Float grey_t = intensity_tukey(grey_r, intensity, depth_r, depth_t);
+  const Float depth_w = depth.gain * depth_t;
+  const Float grey_w = intensity.gain * grey_t;
 
   Row jd =
       row_by_motion(X, Y, rho, lanes::load(in.depth_gX + at), lanes::load(in.depth_gY + at), rho);
   Row jg = row_by_motion(X, Y, rho, lanes::load(in.intensity_gX + at),
                          lanes::load(in.intensity_gY + at), Float{});
-  const Float rd = use_depth ? depth_r : Float{};
-  const Float rg = use_grey ? grey_r : Float{};
+  // What is not used may be NaN.
+  const Float rd = depth_w > 0.0F ? depth_r : Float{};
+  const Float rg = grey_w > 0.0F ? grey_r : Float{};
   for (int i = 0; i < 6; ++i) {
-    jd.v[i] = use_depth ? jd.v[i] : Float{};
-    jg.v[i] = use_grey ? jg.v[i] : Float{};
+    jd.v[i] = depth_w > 0.0F ? jd.v[i] : Float{};
+    jg.v[i] = grey_w > 0.0F ? jg.v[i] : Float{};
   }
   int k = 0;
   for (int i = 0; i < 6; ++i) {
@@ -214,7 +221,9 @@ void weigh(const Residuals& residuals, int size, const Weighting& depth, const W
     const Float depth_gain = depth_r == depth_r ? lanes::all(depth.gain) : Float{};
     const Float grey_gain = grey_r == grey_r ? lanes::all(intensity.gain) : Float{};
     const Float gain = depth_gain + grey_gain;
-    const Float weight = tukey(depth_r, depth) + tukey(grey_r, intensity);
+    const Float depth_t = tukey(depth_r, depth);
+    const Float weight =
+        depth_gain * depth_t + grey_gain * intensity_tukey(grey_r, intensity, depth_r, depth_t);
     lanes::store(weights + at, gain > 0.0F ? weight / gain : unknown());
   }
 }

@@ -7,6 +7,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "vision/alignment/registration_kernels.hpp"
 #include "vision/core/pyramid.hpp"
 
 namespace armsreach {
@@ -64,6 +65,15 @@ float surface_value(const Cell& cell) {
 }
 
 }  // namespace
+
+RegistrationKernels registration_kernels(Isa isa) {
+#ifdef __x86_64__
+  if (isa == Isa::v4) return v4::kRegistrationKernels;
+  if (isa == Isa::v3) return v3::kRegistrationKernels;
+#endif
+  static_cast<void>(isa);
+  return baseline::kRegistrationKernels;
+}
 
 FrameReducer::Reduction FrameReducer::reduction(const Camera& camera, int width) {
   Reduction out;
@@ -124,25 +134,26 @@ ReducedFrame FrameReducer::reduce(const Frame& frame) const {
 cv::Mat FrameReducer::registered(const cv::Mat& intensity, const cv::Mat& depth) const {
   const Eigen::Matrix3f rotation = sensor_->color_from_depth.rotation_matrix().cast<float>();
   const Eigen::Vector3f translation = sensor_->color_from_depth.translation().cast<float>();
-  const auto fx = static_cast<float>(color_.camera.fx);
-  const auto fy = static_cast<float>(color_.camera.fy);
-  const auto cx = static_cast<float>(color_.camera.cx);
-  const auto cy = static_cast<float>(color_.camera.cy);
+  const auto to_float = [](double value) { return static_cast<float>(value); };
+  const Camera& color = color_.camera;
+  const RegistrationImage image{intensity.ptr<float>(), intensity.cols,
+                                intensity.rows,         static_cast<int>(intensity.step1()),
+                                to_float(color.fx),     to_float(color.fy),
+                                to_float(color.cx),     to_float(color.cy)};
+  RegistrationRow row{};
+  row.width = depth.cols;
+  row.first_x = to_float(-camera_.cx / camera_.fx);
+  row.x_per_pixel = to_float(1 / camera_.fx);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) row.rotation[i][j] = rotation(i, j);
+    row.translation[i] = translation(i);
+  }
+  const RegistrationKernels kernels = registration_kernels(best_isa());
   cv::Mat out(depth.size(), CV_32FC1);
-  for (int row = 0; row < depth.rows; ++row) {
-    const float* z = depth.ptr<float>(row);
-    float* grey = out.ptr<float>(row);
-    const float y =
-        (static_cast<float>(row) - static_cast<float>(camera_.cy)) / static_cast<float>(camera_.fy);
-    for (int col = 0; col < depth.cols; ++col) {
-      const float x = (static_cast<float>(col) - static_cast<float>(camera_.cx)) /
-                      static_cast<float>(camera_.fx);
-      const Eigen::Vector3f point =
-          rotation * Eigen::Vector3f(z[col] * x, z[col] * y, z[col]) + translation;
-      grey[col] = point.z() > 0 ? look_up(intensity, fx * point.x() / point.z() + cx,
-                                          fy * point.y() / point.z() + cy, mean)
-                                : kUnknown;
-    }
+  for (int i = 0; i < depth.rows; ++i) {
+    row.depth = depth.ptr<float>(i);
+    row.y = to_float((i - camera_.cy) / camera_.fy);
+    kernels.look_up_row(row, image, out.ptr<float>(i));
   }
   return out;
 }

@@ -32,9 +32,9 @@ void differentiate(const float* plane, int width, int height, int stride, float 
       const Float dx = 0.5F * (lanes::load(plane + at + 1) - lanes::load(plane + at - 1));
       const Float dy = 0.5F * (lanes::load(plane + at + stride) - lanes::load(plane + at - stride));
       const Float limit = greatest_step * lanes::load(plane + at);
-      const auto smooth = (lanes::abs(dx) <= limit) & (lanes::abs(dy) <= limit);
-      lanes::store(along_x + at, smooth ? dx : unknown());
-      lanes::store(along_y + at, smooth ? dy : unknown());
+      const Float steepest = lanes::max(lanes::abs(dx), lanes::abs(dy));
+      lanes::store(along_x + at, steepest <= limit ? dx + 0.0F * dy : unknown());
+      lanes::store(along_y + at, steepest <= limit ? dy + 0.0F * dx : unknown());
     }
     // Here one neighbour was in another row.
     along_x[start] = along_y[start] = __builtin_nanf("");

@@ -4,6 +4,9 @@
 // Everything here is static and always inlined: a function with external linkage would exist once
 // in the program, compiled for whichever level the linker happened to keep. For the same reason
 // such files use no templates of the standard library.
+//
+// Choose with chains of `condition ? a : b`: GCC 12 takes conjunctions of conditions apart bit by
+// bit at AVX-512.
 #pragma once
 
 #include <cstdint>
@@ -46,19 +49,6 @@ ARMSREACH_INLINE Float abs(Float x) {
 }
 ARMSREACH_INLINE Float min(Float a, Float b) { return a < b ? a : b; }  // b where a is NaN
 ARMSREACH_INLINE Float max(Float a, Float b) { return a > b ? a : b; }
-
-// base[index]
-ARMSREACH_INLINE Float gather(const float* base, Int index) {
-#if defined(__AVX512F__)
-  return reinterpret_cast<Float>(_mm512_i32gather_ps(reinterpret_cast<__m512i>(index), base, 4));
-#elif defined(__AVX2__)
-  return reinterpret_cast<Float>(_mm256_i32gather_ps(base, reinterpret_cast<__m256i>(index), 4));
-#else
-  Float v;
-  for (int i = 0; i < kWidth; ++i) v[i] = base[index[i]];
-  return v;
-#endif
-}
 
 // Elements 0, 2, 4, ... and 1, 3, 5, ... of a followed by b.
 ARMSREACH_INLINE Float even(Float a, Float b) {

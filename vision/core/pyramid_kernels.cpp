@@ -65,7 +65,7 @@ void depth_row(const float* depth, int step, int width, int factor, float* scrat
     for (int row = 0; row < factor; ++row) {
       const Float d = lanes::load(depth + row * step + col);
       known = d > 0.0F ? known + 1.0F : known;
-      nearest = (d > 0.0F) & (d < nearest) ? d : nearest;
+      nearest = lanes::min(d > 0.0F ? d : nearest, nearest);
     }
     lanes::store(sums + col, nearest);
     lanes::store(counts + col, known);
@@ -84,9 +84,9 @@ void depth_row(const float* depth, int step, int width, int factor, float* scrat
     Float count{};
     for (int row = 0; row < factor; ++row) {
       const Float d = lanes::load(depth + row * step + col);
-      const auto same = (d > 0.0F) & (d <= farthest);
-      sum = same ? sum + d : sum;
-      count = same ? count + 1.0F : count;
+      const Float same = d <= farthest ? d : Float{};
+      sum = same > 0.0F ? sum + same : sum;
+      count = same > 0.0F ? count + 1.0F : count;
     }
     lanes::store(sums + col, sum);
     lanes::store(counts + col, count);
