@@ -269,12 +269,15 @@ std::optional<ViewClick> MapView::handle_mouse(const InputState& input, const De
   if (input.down[static_cast<std::size_t>(drag_->button)]) return std::nullopt;
   const Drag ended = *std::exchange(drag_, std::nullopt);
   if (ended.moved || ended.button != 0) return std::nullopt;
+  const Rectangle& place = place_of(ended.view, desk);
+  const Eigen::Vector2d pixel(static_cast<double>(ended.start.x()) - place.x - 0.5,
+                              static_cast<double>(ended.start.y()) - place.y - 0.5);
+  return ViewClick{ended.view, pixel, ray(ended.view, pixel), {}};
+}
+
+std::optional<Ray> MapView::ray(ViewKind kind, const Eigen::Vector2d& pixel) const {
   for (const Picture& picture : pictures_) {
-    if (picture.kind != ended.view) continue;
-    const Rectangle& place = place_of(picture.kind, desk);
-    const Eigen::Vector2d pixel(static_cast<double>(ended.start.x()) - place.x - 0.5,
-                                static_cast<double>(ended.start.y()) - place.y - 0.5);
-    return ViewClick{picture.kind, pixel, ray_through(picture.view, pixel), {}};
+    if (picture.kind == kind) return ray_through(picture.view, pixel);
   }
   return std::nullopt;
 }

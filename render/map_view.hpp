@@ -32,6 +32,8 @@ class MapView {
   // Turns (left drag), moves (right drag) and zooms (wheel) the orbiting view; a left click that
   // does not drag is returned with its ray, from any of the four views.
   std::optional<ViewClick> handle_mouse(const InputState& input, const Desk& desk);
+  // The ray through a pixel of one of the four views as it is drawn now; nothing for others.
+  std::optional<Ray> ray(ViewKind kind, const Eigen::Vector2d& pixel) const;
 
  private:
   // A view's surface, ground and objects, and what was known when they were drawn.

@@ -69,6 +69,9 @@ class SceneRenderer final : public Renderer {
 
   void set_layout(Layout layout) override { options_.layout = layout; }
   Layout layout() const override { return options_.layout; }
+  std::optional<Ray> map_ray(ViewKind view, const Eigen::Vector2d& pixel) const override {
+    return options_.layout == Layout::operator_desk ? map_.ray(view, pixel) : std::nullopt;
+  }
   void show_inliers(bool shown) override { choices_.show_inliers = shown; }
   std::vector<std::string> take_notes() override { return std::exchange(notes_, {}); }
 

@@ -115,7 +115,9 @@ void Workspace::join_mapping() {
 
 void Workspace::join_composing() {
   composing_ = std::make_unique<ComposingNode>(
-      std::make_unique<Composer>(log_, [this] { return stage_rows(); }),
+      std::make_unique<Composer>(
+          log_, [this] { return stage_rows(); },
+          [this] { return drawing_->latency().percentile(0.5); }),
       [this]() -> std::optional<ComposeInput> {
         auto tracked = to_compose_->pop();
         if (!tracked) return std::nullopt;
@@ -133,7 +135,7 @@ void Workspace::join_drawing(Presenter& presenter) {
 
 FaultHandler Workspace::fault_handler() {
   return [this](const std::string& stage, const std::string& what) {
-    log_.write({0, FaultEvent{stage, what, "the stage goes on with the next frame"}});
+    log_.write({log_.now(), FaultEvent{stage, what, "the stage goes on with the next frame"}});
   };
 }
 
