@@ -50,6 +50,7 @@ struct RendererOptions {
 // keeps its current context in a global.
 class Renderer {
  public:
+  // The context is current on this thread and outlives the renderer.
   static Result<std::unique_ptr<Renderer>> make(Context& context, const RendererOptions& options);
   virtual ~Renderer() = default;
 
