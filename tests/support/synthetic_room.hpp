@@ -16,7 +16,7 @@ struct Box {
 };
 
 struct SyntheticRoom {
-  Box walls{{-2.5, -1.6, -1.5}, {2.2, 1.1, 3.5}};  // seen from inside; y points down
+  Box walls{{-1.9, -1.6, -1.5}, {1.7, 1.1, 3.5}};  // seen from inside; y points down
   std::vector<Box> furniture{{{-0.9, 0.2, 1.6}, {0.5, 0.3, 2.6}},     // a table's top
                              {{-0.6, -0.15, 1.9}, {-0.3, 0.2, 2.2}},  // things on it
                              {{0.0, 0.0, 1.8}, {0.25, 0.2, 2.0}},

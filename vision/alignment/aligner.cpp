@@ -3,16 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 
 namespace armsreach {
 namespace {
 
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 constexpr double kTukey = 4.685;  // cutoff in deviations; 95 % efficient on normal residuals
 // Quantisation alone leaves this much, so that exact images do not divide by zero.
 constexpr ResidualScales kLeastScales{3e-4, 2e-3};
-constexpr int kScaleSamples = 2048;  // residuals a median is taken of
+constexpr int kScaleSamples = 2048;   // residuals a median is taken of
+constexpr int kFeignedSamples = 256;  // pixels that stand for all where noise is assessed
 constexpr int kLeastResiduals = 64;
 constexpr double kConverged = 1e-3;  // pixels: a smaller step is the last
 
@@ -50,6 +54,16 @@ Warp warp_from(const Pose& target_from_source, double intensity_offset) {
 }
 
 int size_of(const Level& level) { return level.stride() * level.height(); }
+
+// The smallest ratio of the two over all motions.
+double least_ratio(const Matrix6d& information, const Matrix6d& feigned) {
+  const Eigen::LLT<Matrix6d> root(feigned);
+  if (root.info() != Eigen::Success) return 0;
+  const Matrix6d half = root.matrixL().solve(information);
+  const Matrix6d whitened = root.matrixL().solve(half.transpose());
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(whitened, Eigen::EigenvaluesOnly);
+  return eigen.info() == Eigen::Success ? eigen.eigenvalues()(0) : 0;
+}
 
 // The level of a pyramid whose pixels are nearest in size to those of `wanted`.
 const Level& level_like(const Pyramid& pyramid, const Level& wanted) {
@@ -125,6 +139,28 @@ Weighting Aligner::intensity_weighting(const ResidualScales& scales) const {
           static_cast<float>(kTukey * scales.intensity)};
 }
 
+// Independent noise of deviation s in both images leaves about 0.75 s^2 of variance, by residual
+// variance s^2, in the mean of a central difference and an interpolated cell's derivative.
+Matrix6d Aligner::feigned_information(const Residuals& residuals, int size, double focal_length,
+                                      const ResidualScales& scales) const {
+  const int stride = size / kFeignedSamples | 1;
+  Matrix6d sum = Matrix6d::Zero();
+  for (int at = 0; at < size; at += stride) {
+    double gain = 0;
+    if (std::abs(double{residuals.depth[at]}) < kTukey * scales.depth) gain += options_.alpha;
+    if (std::abs(double{residuals.intensity[at]}) < kTukey * scales.intensity)
+      gain += 1 - options_.alpha;
+    if (!(gain > 0)) continue;
+    const double x = residuals.X[at];
+    const double y = residuals.Y[at];
+    const double rho = residuals.inverse_z[at];
+    Eigen::Matrix<double, 6, 2> by_gradient;  // x and y
+    by_gradient << rho, 0, 0, rho, -rho * x, -rho * y, -x * y, -1 - y * y, 1 + x * x, x * y, -y, x;
+    sum += gain * by_gradient * by_gradient.transpose();
+  }
+  return 0.75 * stride * focal_length * focal_length * sum;
+}
+
 bool Aligner::refine(const Level& camera, const Level& reference, int iterations,
                      Estimate& estimate) {
   const int size = size_of(reference);
@@ -141,27 +177,47 @@ bool Aligner::refine(const Level& camera, const Level& reference, int iterations
     estimate.camera_from_reference = Pose::exp(step.motion) * estimate.camera_from_reference;
     estimate.intensity_offset += step.intensity_offset;
     estimate.information = step.information;
-    if (step.motion.lpNorm<Eigen::Infinity>() < converged) break;
+    const bool last = i + 1 == iterations || step.motion.lpNorm<Eigen::Infinity>() < converged;
+    if (!last) continue;
+    estimate.feigned_information = feigned_information(found, size, camera.camera().fx, spread);
+    break;
   }
   return estimate.camera_from_reference.is_finite();
 }
 
+// Weighs the pixels of the camera, or, of a camera without depth, those of the reference, whose
+// weights then go where they are seen.
 void Aligner::weigh(const Level& camera, const Level& reference, AlignmentResult& result) {
-  const int size = size_of(camera);
+  const Pose& reference_from_camera = result.reference_from_camera;
+  const bool own_depth = camera.has_depth();
+  const Level& source = own_depth ? camera : reference;
+  const int size = size_of(source);
   const Residuals found =
-      residuals(camera, reference, result.reference_from_camera, -result.intensity_offset);
+      own_depth
+          ? residuals(camera, reference, reference_from_camera, -result.intensity_offset)
+          : residuals(reference, camera, reference_from_camera.inverse(), result.intensity_offset);
   result.scales = scales(found, size);
-  float* const weights = found.X;  // no longer needed
+  float* const weights = found.depth_gX;  // no longer needed
   kernels_.weigh(found, size, depth_weighting(result.scales), intensity_weighting(result.scales),
                  weights);
-  result.weights.create(camera.height(), camera.width(), CV_32FC1);
-  for (int row = 0; row < camera.height(); ++row) {
-    const float* from = weights + row * camera.stride();
-    std::copy_n(from, camera.width(), result.weights.ptr<float>(row));
-    for (int col = 0; col < camera.width(); ++col) {
-      result.compared += from[col] >= 0 ? 1 : 0;
-      result.inliers += from[col] > 0 ? 1 : 0;
+  for (int at = 0; at < size; ++at) {
+    result.compared += weights[at] >= 0 ? 1 : 0;
+    result.inliers += weights[at] > 0 ? 1 : 0;
+  }
+  result.weights = cv::Mat(camera.height(), camera.width(), CV_32FC1, cv::Scalar(kUnknown));
+  if (own_depth) {
+    for (int row = 0; row < camera.height(); ++row) {
+      std::copy_n(weights + row * camera.stride(), camera.width(), result.weights.ptr<float>(row));
     }
+    return;
+  }
+  const Camera& model = camera.camera();
+  for (int at = 0; at < size; ++at) {
+    if (!(weights[at] >= 0)) continue;
+    const double u = model.fx * static_cast<double>(found.X[at]) + model.cx;
+    const double v = model.fy * static_cast<double>(found.Y[at]) + model.cy;
+    result.weights.at<float>(static_cast<int>(std::lround(v)), static_cast<int>(std::lround(u))) =
+        weights[at];
   }
 }
 
@@ -177,6 +233,7 @@ AlignmentResult Aligner::align(const Pyramid& camera, const Pyramid& reference, 
   result.reference_from_camera = estimate.camera_from_reference.inverse();
   result.intensity_offset = estimate.intensity_offset;
   result.information = estimate.information;
+  result.observability = least_ratio(estimate.information, estimate.feigned_information);
   if (ok) weigh(camera[0], level_like(reference, camera[0]), result);
   result.ok = ok && result.compared >= kLeastResiduals;
   return result;

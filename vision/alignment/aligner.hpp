@@ -24,7 +24,7 @@ namespace armsreach {
 
 struct AlignerOptions {
   double alpha = 0.95;                   // 1: depth only, 0: intensity only
-  std::vector<int> iterations = {5, 5};  // at most, from the finest level to coarser ones
+  std::vector<int> iterations = {5, 3};  // at most, from the finest level to coarser ones
 };
 
 // Standard deviations of the residuals.
@@ -43,6 +43,9 @@ struct AlignmentResult {
   // Inverse covariance of the camera's motion (translation, rotation) on the left of
   // camera_from_reference, as far as residuals are independent.
   Matrix6d information = Matrix6d::Zero();
+  // Of all motions the one determined worst: its information beside what noise alone would feign,
+  // by giving gradients to a blank wall. About 1 or less where there is nothing to hold on to.
+  double observability = 0;
   bool ok = false;  // there were residuals enough to solve for the motion
 };
 
@@ -62,6 +65,7 @@ class Aligner {
     Pose camera_from_reference;
     double intensity_offset = 0;
     Matrix6d information = Matrix6d::Zero();
+    Matrix6d feigned_information = Matrix6d::Zero();  // by noise, see observability
   };
 
   Residuals residuals(const Level& source, const Level& target, const Pose& target_from_source,
@@ -70,6 +74,8 @@ class Aligner {
   Weighting depth_weighting(const ResidualScales& scales) const;
   Weighting intensity_weighting(const ResidualScales& scales) const;
   bool refine(const Level& camera, const Level& reference, int iterations, Estimate& estimate);
+  Matrix6d feigned_information(const Residuals& residuals, int size, double focal_length,
+                               const ResidualScales& scales) const;
   void weigh(const Level& camera, const Level& reference, AlignmentResult& result);
 
   AlignerOptions options_;

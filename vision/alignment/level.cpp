@@ -45,6 +45,7 @@ void Level::assign(const Camera& camera, const cv::Mat& depth, const cv::Mat& gr
   CV_Assert(depth.empty() || depth.size() == cv::Size(camera.width, camera.height));
   CV_Assert(grey.empty() || grey.size() == cv::Size(camera.width, camera.height));
   resize(camera);
+  has_depth_ = !depth.empty();
   copy_rows(depth, stride(), inverse_depth);
   copy_rows(grey, stride(), intensity);
   level_kernels(best_isa()).invert(inverse_depth.data(), stride() * height());
@@ -56,6 +57,7 @@ void Level::assign_half(const Level& finer) {
   whole_blocks.width = finer.width() / 2 * 2;
   whole_blocks.height = finer.height() / 2 * 2;
   resize(resized(whole_blocks, finer.width() / 2, finer.height() / 2));
+  has_depth_ = finer.has_depth();
   const LevelKernels kernels = level_kernels(best_isa());
   kernels.halve(finer.inverse_depth.data(), finer.stride(), kSameSurface, 1, inverse_depth.data(),
                 width(), height(), stride());

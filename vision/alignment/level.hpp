@@ -29,6 +29,7 @@ class Level {
   int width() const { return camera_.width; }
   int height() const { return camera_.height; }
   int stride() const { return padded(camera_.width); }
+  bool has_depth() const { return has_depth_; }
   // Relative change of depth from one pixel to the next beyond which it is no surface but an edge.
   float greatest_step() const { return static_cast<float>(kGreatestSlope / camera_.fx); }
 
@@ -50,6 +51,7 @@ class Level {
   void differentiate();
 
   Camera camera_;
+  bool has_depth_ = false;
 };
 
 // The finest level first, each half the size of the one before. Keeps its memory when reassigned.
