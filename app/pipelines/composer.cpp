@@ -35,9 +35,7 @@ struct BodyToText {
   std::string operator()(const InsertEvent& e) const { return e.object + " inserted"; }
   std::string operator()(const MoveEvent& e) const { return e.object + " moved"; }
   std::string operator()(const DeleteEvent& e) const { return e.object + " deleted"; }
-  std::string operator()(const FaultEvent& e) const {
-    return e.component + ": " + e.message + (e.remedy.empty() ? "" : " - " + e.remedy);
-  }
+  std::string operator()(const FaultEvent& e) const { return e.message; }
 };
 
 }  // namespace

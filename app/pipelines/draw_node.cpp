@@ -9,7 +9,7 @@ DrawNode::DrawNode(Presenter& presenter, Journal& journal, EventLog& log, Connec
                    std::function<void()> stop_sources)
     : Node("drawing",
            [this, &log](const std::string& stage, const std::string& what) {
-             log.write({log.now(), FaultEvent{stage, what, "see the README's list of displays"}});
+             log.write({log.now(), FaultEvent{stage, what, "see 'Displays' in the README"}});
              fail({what, stage, "", Error::Kind::device});
            }),
       presenter_(presenter),

@@ -91,6 +91,9 @@ Result<UserInput> Presenter::present(const render::Scene& scene) {
   UserInput user;
   if (renderer_) {
     user = user_input(renderer_->draw(scene, input_for_picture()));
+    for (const std::string& note : renderer_->take_notes()) {
+      user.faults.push_back({"drawing", note, "see 'Displays' in the README"});
+    }
   }
   const bool fresh = scene.frame != last_drawn_;
   last_drawn_ = scene.frame;
