@@ -3,11 +3,11 @@
 
 #include <atomic>
 #include <deque>
-#include <fstream>
 #include <mutex>
 #include <string>
 #include <vector>
 
+#include "app/runtime/output_file.hpp"
 #include "vision/core/event.hpp"
 #include "vision/core/result.hpp"
 
@@ -15,8 +15,9 @@ namespace armsreach::app {
 
 class EventLog {
  public:
-  Status open(const std::string& path);  // "" keeps events in memory only
-  void write(const Event& event);        // from any thread
+  // "" keeps events in memory only.
+  Status open(const std::string& path) { return file_.open(path); }
+  void write(const Event& event);  // from any thread
   // Source time of the newest frame, for events that belong to none.
   void set_now(Timestamp time) { now_.store(time, std::memory_order_relaxed); }
   Timestamp now() const { return now_.load(std::memory_order_relaxed); }
@@ -28,8 +29,7 @@ class EventLog {
   std::atomic<Timestamp> now_{0};
   static constexpr std::size_t kRecent = 16;
   mutable std::mutex mutex_;
-  std::string path_;
-  std::ofstream file_;
+  OutputFile file_;
   std::deque<Event> recent_;
 };
 
