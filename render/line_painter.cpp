@@ -14,7 +14,7 @@ void Lines::segment(const Eigen::Vector3f& from, const Eigen::Vector3f& to,
 
 void Lines::fading_path(const std::vector<Eigen::Vector3f>& points, const theme::Color& color) {
   // More segments than this cannot be told apart on a screen.
-  const std::size_t step = std::max<std::size_t>(1, points.size() / 400);
+  const std::size_t step = std::max<std::size_t>(1, points.size() / 200);
   const auto faded = [&](std::size_t i) {
     theme::Color result = color;
     const double age =

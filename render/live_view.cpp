@@ -6,6 +6,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "render/scene_lines.hpp"
 #include "render/theme.hpp"
 
 namespace armsreach::render {
@@ -74,22 +75,29 @@ Status LiveView::draw(const Scene& scene, ObjectPainter& objects, const LinePain
                       const Framebuffer& target) {
   const View view = live_view_of(scene, target.width(), target.height());
   draw_video(scene, view, target);
+  std::optional<Rectangle> objects_part;
+  if (scene.pose_known && !scene.objects.empty()) {
+    auto part = draw_object_layer(scene, view, objects);
+    if (!part) return part.error();
+    objects_part = *part;
+  }
   target.bind();
+  // Nothing of the world is drawn beside the video.
+  const Rectangle shown = image_rectangle(view);
+  gl_->Enable(GL_SCISSOR_TEST);
+  gl_->Scissor(shown.x, shown.y, shown.width, shown.height);
   if (options_.show_inliers && !scene.inliers.empty()) draw_inliers(scene, view);
   if (scene.pose_known) {
-    if (const Status drawn = draw_objects(scene, view, objects, target); !drawn)
-      return drawn.error();
-    target.bind();
-    Lines trails;
-    for (const Trail& trail : scene.trails) {
-      const Eigen::Vector3f rgb = 255 * trail.color.cwiseMax(0.F).cwiseMin(1.F);
-      trails.fading_path(trail.points_in_world,
-                         {static_cast<std::uint8_t>(rgb.x()), static_cast<std::uint8_t>(rgb.y()),
-                          static_cast<std::uint8_t>(rgb.z()), 230});
+    if (!scene.objects.empty()) {
+      objects.draw_shadows(view, scene.objects, scene_depth(scene, view));
     }
+    if (objects_part) compose_object_layer(*objects_part, view);
+    Lines trails;
+    add_trails(trails, scene);
     lines.draw(view, trails, 2);
   }
   features_.draw(view, scene.features);
+  gl_->Disable(GL_SCISSOR_TEST);
   return ok();
 }
 
@@ -160,15 +168,13 @@ Status LiveView::fit_layer(int width, int height) {
   return ok();
 }
 
-Status LiveView::draw_objects(const Scene& scene, const View& view, ObjectPainter& objects,
-                              const Framebuffer& target) {
-  if (scene.objects.empty()) return ok();
+// Objects go into a small multisampled layer first; nothing to compose when none is in view.
+Result<std::optional<Rectangle>> LiveView::draw_object_layer(const Scene& scene, const View& view,
+                                                             ObjectPainter& objects) {
   if (!scene.depth.empty()) upload(*gl_, depth_, scene.depth);
-  objects.draw_shadows(view, scene.objects, scene_depth(scene, view));
-
   const Rectangle part = objects.bounds(view, scene.objects);
-  if (part.width == 0 || part.height == 0) return ok();
-  if (const Status fitted = fit_layer(part.width, part.height); !fitted) return fitted;
+  if (part.width == 0 || part.height == 0) return std::optional<Rectangle>();
+  if (const Status fitted = fit_layer(part.width, part.height); !fitted) return fitted.error();
   View part_view = view;
   part_view.target_offset -= Eigen::Vector2d(part.x, part.y);
   part_view.target_width = layer_.width();
@@ -178,8 +184,10 @@ Status LiveView::draw_objects(const Scene& scene, const View& view, ObjectPainte
   gl_->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
   objects.draw_objects(part_view, scene.objects, scene_depth(scene, part_view));
   layer_.resolve();
+  return std::optional<Rectangle>(part);
+}
 
-  target.bind();
+void LiveView::compose_object_layer(const Rectangle& part, const View& view) {
   picture_.use();
   const Eigen::Vector2f shown(
       static_cast<float>(part.width) / static_cast<float>(layer_.width()),
@@ -187,7 +195,6 @@ Status LiveView::draw_objects(const Scene& scene, const View& view, ObjectPainte
   compose(picture_, layer_.color(),
           Eigen::Array4d(part.x, part.y, part.width, part.height).cast<float>(),
           {0, 0, shown.x(), shown.y()}, view);
-  return ok();
 }
 
 }  // namespace armsreach::render

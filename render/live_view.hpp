@@ -34,8 +34,9 @@ class LiveView {
  private:
   void draw_video(const Scene& scene, const View& view, const Framebuffer& target);
   void draw_inliers(const Scene& scene, const View& view);
-  Status draw_objects(const Scene& scene, const View& view, ObjectPainter& objects,
-                      const Framebuffer& target);
+  Result<std::optional<Rectangle>> draw_object_layer(const Scene& scene, const View& view,
+                                                     ObjectPainter& objects);
+  void compose_object_layer(const Rectangle& part, const View& view);
   Status fit_layer(int width, int height);
   std::optional<SceneDepth> scene_depth(const Scene& scene, const View& view) const;
   void compose(const Program& program, const Texture& texture, const Eigen::Vector4f& rectangle,

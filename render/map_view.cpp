@@ -7,15 +7,15 @@
 #include <utility>
 
 #include "render/annotations.hpp"
+#include "render/scene_lines.hpp"
 #include "render/theme.hpp"
 
 namespace armsreach::render {
 namespace {
 
 using Eigen::Vector3d;
-using Eigen::Vector3f;
 
-constexpr double kPeriod = 0.0999;  // s of video between two drawings of a view
+constexpr double kPointsPerSecond = 300e3;  // of video, in each view
 
 const Rectangle& place_of(ViewKind kind, const Desk& desk) {
   switch (kind) {
@@ -38,60 +38,12 @@ bool inside(const Rectangle& r, const Eigen::Vector2f& p) {
   return x >= 0 && y >= 0 && x < static_cast<float>(r.width) && y < static_cast<float>(r.height);
 }
 
-// 1, 2 or 5 times a power of ten, at most `limit`.
-double round_length(double limit) {
-  const double decade = std::pow(10, std::floor(std::log10(limit)));
-  for (const double factor : {5.0, 2.0}) {
-    if (factor * decade <= limit) return factor * decade;
-  }
-  return decade;
-}
-
-// A square grid on the lowest level of the room, fading outwards.
-void add_ground(Lines& lines, const Eigen::AlignedBox3d& box, const RoomFromWorld& room) {
-  const double radius = 0.5 * box.sizes().head<2>().norm();
-  const double cell = round_length(std::max(0.1, 0.45 * radius));
-  const int reach = std::clamp(static_cast<int>(std::ceil(1.4 * radius / cell)), 2, 8);
-  const Vector3d centre(std::round(box.center().x() / cell) * cell,
-                        std::round(box.center().y() / cell) * cell, box.min().z());
-  const auto world = [&](double x, double y) {
-    return Vector3f((room.conjugate() * (centre + Vector3d(x, y, 0))).cast<float>());
-  };
-  for (int i = -reach; i <= reach; ++i) {
-    theme::Color color = theme::kLine;
-    const double fade = 1 - std::abs(i) / (reach + 1.0);
-    color[3] = static_cast<std::uint8_t>(190 * fade);
-    lines.segment(world(i * cell, -reach * cell), world(i * cell, reach * cell), color);
-    lines.segment(world(-reach * cell, i * cell), world(reach * cell, i * cell), color);
-  }
-}
-
-// The camera as a pyramid with its image's outline, as the lens sees it.
-void add_camera(Lines& lines, const Scene& scene, float size) {
-  const Camera& camera = scene.camera;
-  if (camera.width <= 0) return;
-  const auto at = [&](double x, double y) {
-    return Vector3f(
-        (scene.world_from_camera * (static_cast<double>(size) * unproject(camera, {x, y})))
-            .cast<float>());
-  };
-  const double right = camera.width - 0.5;
-  const double low = camera.height - 0.5;
-  const std::array corners{at(-0.5, -0.5), at(right, -0.5), at(right, low), at(-0.5, low)};
-  const Vector3f centre = scene.world_from_camera.translation().cast<float>();
-  for (std::size_t i = 0; i < 4; ++i) {
-    lines.segment(centre, corners[i], theme::kAccent);
-    lines.segment(corners[i], corners[(i + 1) % 4], theme::kAccent);
-  }
-}
-
-void add_trails(Lines& lines, const Scene& scene) {
-  for (const Trail& trail : scene.trails) {
-    const Vector3f rgb = 255 * trail.color.cwiseMax(0.F).cwiseMin(1.F);
-    lines.fading_path(trail.points_in_world,
-                      {static_cast<std::uint8_t>(rgb.x()), static_cast<std::uint8_t>(rgb.y()),
-                       static_cast<std::uint8_t>(rgb.z()), 255});
-  }
+bool same(const std::vector<VirtualObject>& a, const std::vector<VirtualObject>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
+    return x.id == y.id && x.mesh == y.mesh && x.scale == y.scale && x.selected == y.selected &&
+           x.world_from_object.translation() == y.world_from_object.translation() &&
+           x.world_from_object.rotation().coeffs() == y.world_from_object.rotation().coeffs();
+  });
 }
 
 // A length in round figures, on glass so that it reads on bright surface too.
@@ -154,33 +106,43 @@ void MapView::follow(const Scene& scene) {
   if (const auto bounds = scene_bounds(scene, *room_)) framing_.follow(*bounds, scene.time);
 }
 
-View MapView::view_for(const Picture& picture, const Rectangle& place) const {
-  switch (picture.kind) {
+View MapView::view_for(ViewKind kind, int width, int height) const {
+  switch (kind) {
     case ViewKind::top:
-      return side_view(Side::top, framing_, *room_, place.width, place.height);
+      return side_view(Side::top, framing_, *room_, width, height);
     case ViewKind::front:
-      return side_view(Side::front, framing_, *room_, place.width, place.height);
+      return side_view(Side::front, framing_, *room_, width, height);
     case ViewKind::side:
-      return side_view(Side::side, framing_, *room_, place.width, place.height);
+      return side_view(Side::side, framing_, *room_, width, height);
     case ViewKind::live:
     case ViewKind::map:
       break;
   }
-  return orbit_view(orbit_, framing_, *room_, place.width, place.height);
+  return orbit_view(orbit_, framing_, *room_, width, height);
 }
 
-// The view that has waited longest of those that are due.
+// A change of the surface may wait: until 0.1 s of video have passed since the last drawing, and
+// longer the more points there are, so that drawing stays a small part of the time.
+double MapView::patience(const Picture& picture) const {
+  return std::max(0.0999, static_cast<double>(picture.points) / kPointsPerSecond);
+}
+
+// One picture at a time, first what the person or the scene's objects changed, then what has waited
+// longest.
 MapView::Picture* MapView::next_due(const Scene& scene) {
-  Picture* oldest = nullptr;
+  Picture* next = nullptr;
   for (Picture& picture : pictures_) {
-    const bool due = scene.time - picture.time >= kPeriod || scene.time < picture.time;
-    if (due && (!oldest || picture.time < oldest->time)) oldest = &picture;
+    const bool changed = picture.revision != surface_revision_ ||
+                         !picture.box.isApprox(framing_.box(), 1e-3) || scene.time < picture.time;
+    const bool due = changed && std::abs(scene.time - picture.time) >= patience(picture);
+    if (!picture.stale && !due) continue;
+    const auto urgency = [](const Picture& p) { return std::pair(!p.stale, p.time); };
+    if (!next || urgency(picture) < urgency(*next)) next = &picture;
   }
-  return oldest;
+  return next;
 }
 
-Status MapView::draw(const Scene& scene, ObjectPainter& objects, const LinePainter& lines,
-                     const Desk& desk) {
+void MapView::take_over(const Scene& scene) {
   follow(scene);
   if (framing_.box().isEmpty())
     framing_.follow({Vector3d(-1, -1, -1), Vector3d(1, 1, 1)}, scene.time);
@@ -188,29 +150,36 @@ Status MapView::draw(const Scene& scene, ObjectPainter& objects, const LinePaint
     cloud_.update(*scene.surface);
     surface_revision_ = scene.surface->revision;
   }
-  if (Picture* due = next_due(scene)) due->stale = true;
-  for (Picture& picture : pictures_) {
-    const Rectangle& place = place_of(picture.kind, desk);
-    const bool resized =
-        picture.framebuffer.width() != place.width || picture.framebuffer.height() != place.height;
-    if (!picture.stale && !resized) continue;
-    if (const Status drawn = draw_picture(picture, scene, objects, lines, place); !drawn)
-      return drawn.error();
+  if (!same(scene.objects, objects_)) {
+    objects_ = scene.objects;
+    for (Picture& picture : pictures_) picture.stale = true;
   }
-  return ok();
 }
 
-Status MapView::draw_picture(Picture& picture, const Scene& scene, ObjectPainter& objects,
-                             const LinePainter& lines, const Rectangle& place) {
-  if (picture.framebuffer.width() != place.width || picture.framebuffer.height() != place.height) {
+Status MapView::draw(const Scene& scene, ObjectPainter& objects, const LinePainter& lines,
+                     const Desk& desk) {
+  take_over(scene);
+  for (Picture& picture : pictures_) {
+    const Rectangle& place = place_of(picture.kind, desk);
+    if (picture.framebuffer.width() == place.width && picture.framebuffer.height() == place.height)
+      continue;
     // Without MSAA, which would double the cost: a cloud of points has no edges to smooth.
     auto made =
         Framebuffer::make(*gl_, {.width = place.width, .height = place.height, .depth = true});
     if (!made) return made.error();
     picture.framebuffer = *std::move(made);
+    draw_picture(picture, scene, objects, lines);
   }
-  picture.view = view_for(picture, place);
+  if (Picture* due = next_due(scene)) draw_picture(*due, scene, objects, lines);
+  return ok();
+}
+
+void MapView::draw_picture(Picture& picture, const Scene& scene, ObjectPainter& objects,
+                           const LinePainter& lines) {
+  picture.view = view_for(picture.kind, picture.framebuffer.width(), picture.framebuffer.height());
   picture.time = scene.time;
+  picture.revision = surface_revision_;
+  picture.box = framing_.box();
   picture.stale = false;
 
   picture.framebuffer.bind();
@@ -222,25 +191,32 @@ Status MapView::draw_picture(Picture& picture, const Scene& scene, ObjectPainter
   const Vector3d light_in_room = Vector3d(-0.4, -0.55, 0.73).normalized();
   const Vector3d light_in_camera =
       picture.view.world_from_camera.rotation().conjugate() * (room_->conjugate() * light_in_room);
-  cloud_.draw(picture.view, light_in_camera.cast<float>());
+  picture.points = cloud_.draw(picture.view, light_in_camera.cast<float>());
   Lines ground;
   if (picture.kind == ViewKind::map) add_ground(ground, framing_.box(), *room_);
   lines.draw(picture.view, ground, 1.2F);
   objects.draw_shadows(picture.view, scene.objects, std::nullopt);
   gl_->Disable(GL_DEPTH_TEST);
   objects.draw_objects(picture.view, scene.objects, std::nullopt);
-  Lines over;  // always in sight
-  add_trails(over, scene);
-  if (scene.pose_known)
-    add_camera(over, scene, static_cast<float>(0.07 * framing_.box().diagonal().norm()));
-  lines.draw(picture.view, over, 1.8F);
-  return ok();
 }
 
-void MapView::copy_pictures(const Framebuffer& target, const Desk& desk) const {
+void MapView::compose(const Scene& scene, const LinePainter& lines, const Framebuffer& target,
+                      const Desk& desk) const {
+  Lines moving;
+  add_trails(moving, scene);
+  if (scene.pose_known) add_camera(moving, scene, 0.07 * framing_.box().diagonal().norm());
   for (const Picture& picture : pictures_) {
     const Rectangle& place = place_of(picture.kind, desk);
     picture.framebuffer.copy_to(target, place.x, place.y);
+    View view = picture.view;
+    view.target_offset += Eigen::Vector2d(place.x, place.y);
+    view.target_width = target.width();
+    view.target_height = target.height();
+    target.bind();
+    gl_->Enable(GL_SCISSOR_TEST);
+    gl_->Scissor(place.x, place.y, place.width, place.height);
+    lines.draw(view, moving, 1.8F);
+    gl_->Disable(GL_SCISSOR_TEST);
   }
 }
 
@@ -293,12 +269,15 @@ std::optional<ViewClick> MapView::handle_mouse(const InputState& input, const De
   if (input.down[static_cast<std::size_t>(drag_->button)]) return std::nullopt;
   const Drag ended = *std::exchange(drag_, std::nullopt);
   if (ended.moved || ended.button != 0) return std::nullopt;
+  const Rectangle& place = place_of(ended.view, desk);
+  const Eigen::Vector2d pixel(static_cast<double>(ended.start.x()) - place.x - 0.5,
+                              static_cast<double>(ended.start.y()) - place.y - 0.5);
+  return ViewClick{ended.view, pixel, ray(ended.view, pixel), {}};
+}
+
+std::optional<Ray> MapView::ray(ViewKind kind, const Eigen::Vector2d& pixel) const {
   for (const Picture& picture : pictures_) {
-    if (picture.kind != ended.view) continue;
-    const Rectangle& place = place_of(picture.kind, desk);
-    const Eigen::Vector2d pixel(static_cast<double>(ended.start.x()) - place.x - 0.5,
-                                static_cast<double>(ended.start.y()) - place.y - 0.5);
-    return ViewClick{picture.kind, pixel, ray_through(picture.view, pixel), {}};
+    if (picture.kind == kind) return ray_through(picture.view, pixel);
   }
   return std::nullopt;
 }

@@ -1,11 +1,11 @@
 // The mapped world from outside: an orbiting view and orthographic top, front and side views with
-// surface, camera, trajectory and inserted objects. Each is kept as a picture and drawn again only
-// when what it shows has changed, at most ten times a second of video, and one at a time.
+// surface, camera, trajectory and inserted objects. What changes slowly is kept as a picture and
+// drawn again only when it has changed, at most ten times a second of video, one view at a time.
 #pragma once
 
 #include <array>
 #include <optional>
-#include <string>
+#include <vector>
 
 #include "render/desk.hpp"
 #include "render/line_painter.hpp"
@@ -24,27 +24,37 @@ class MapView {
   // Brings the pictures up to date.
   Status draw(const Scene& scene, ObjectPainter& objects, const LinePainter& lines,
               const Desk& desk);
-  // Places them on the desk, and their titles, scale bars and round corners over them.
-  void copy_pictures(const Framebuffer& target, const Desk& desk) const;
+  // Places them on the desk's picture, and what moves with every frame over them: camera, trails.
+  void compose(const Scene& scene, const LinePainter& lines, const Framebuffer& target,
+               const Desk& desk) const;
+  // Round corners, titles and scale bars.
   void draw_frames(ImDrawList& list, const Fonts& fonts, const Desk& desk) const;
   // Turns (left drag), moves (right drag) and zooms (wheel) the orbiting view; a left click that
   // does not drag is returned with its ray, from any of the four views.
   std::optional<ViewClick> handle_mouse(const InputState& input, const Desk& desk);
+  // The ray through a pixel of one of the four views as it is drawn now; nothing for others.
+  std::optional<Ray> ray(ViewKind kind, const Eigen::Vector2d& pixel) const;
 
  private:
+  // A view's surface, ground and objects, and what was known when they were drawn.
   struct Picture {
     ViewKind kind = ViewKind::map;
     Framebuffer framebuffer;
     View view;
-    double time = 0;    // of the scene it shows
-    bool stale = true;  // must be drawn whatever the time: new, resized or moved by the person
+    double time = 0;  // s, of the scene
+    std::uint64_t revision = 0;
+    Eigen::AlignedBox3d box;
+    std::size_t points = 0;
+    bool stale = true;  // to be drawn whatever the time: new, or moved by the person
   };
 
+  void take_over(const Scene& scene);
   void follow(const Scene& scene);
-  View view_for(const Picture& picture, const Rectangle& place) const;
+  View view_for(ViewKind kind, int width, int height) const;
+  double patience(const Picture& picture) const;
   Picture* next_due(const Scene& scene);
-  Status draw_picture(Picture& picture, const Scene& scene, ObjectPainter& objects,
-                      const LinePainter& lines, const Rectangle& place);
+  void draw_picture(Picture& picture, const Scene& scene, ObjectPainter& objects,
+                    const LinePainter& lines);
 
   const Gl* gl_ = nullptr;
   SurfaceCloud cloud_;
@@ -54,6 +64,7 @@ class MapView {
   Orbit orbit_;
   std::array<Picture, 4> pictures_;
   std::uint64_t surface_revision_ = 0;
+  std::vector<VirtualObject> objects_;  // as drawn
 
   struct Drag {
     ViewKind view = ViewKind::map;

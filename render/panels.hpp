@@ -13,7 +13,6 @@ namespace armsreach::render {
 struct Choices {
   std::string insert;  // mesh that the next click inserts; empty: select
   bool show_inliers = false;
-  bool follow = true;  // the map view follows the scene's extent
 };
 
 // What was pressed in this picture.

@@ -69,6 +69,9 @@ class SceneRenderer final : public Renderer {
 
   void set_layout(Layout layout) override { options_.layout = layout; }
   Layout layout() const override { return options_.layout; }
+  std::optional<Ray> map_ray(ViewKind view, const Eigen::Vector2d& pixel) const override {
+    return options_.layout == Layout::operator_desk ? map_.ray(view, pixel) : std::nullopt;
+  }
   void show_inliers(bool shown) override { choices_.show_inliers = shown; }
   std::vector<std::string> take_notes() override { return std::exchange(notes_, {}); }
 
@@ -147,7 +150,7 @@ class SceneRenderer final : public Renderer {
     gl.ClearColor(background.x(), background.y(), background.z(), 1);
     gl.Clear(GL_COLOR_BUFFER_BIT);
     live_picture_.copy_to(picture_, desk.live.x, desk.live.y);
-    map_.copy_pictures(picture_, desk);
+    map_.compose(scene, lines_, picture_, desk);
     picture_.bind();
     ui_->begin(input, options_.width, options_.height);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();

@@ -50,6 +50,7 @@ struct RendererOptions {
 // keeps its current context in a global.
 class Renderer {
  public:
+  // The context is current on this thread and outlives the renderer.
   static Result<std::unique_ptr<Renderer>> make(Context& context, const RendererOptions& options);
   virtual ~Renderer() = default;
 
@@ -60,6 +61,8 @@ class Renderer {
   virtual void set_layout(Layout layout) = 0;  // the person may change it as well (Tab)
   virtual Layout layout() const = 0;
   virtual void show_inliers(bool shown) = 0;  // tints what the tracker rejects
+  // The ray through a pixel of a map view as it was drawn last; nothing while none is shown.
+  virtual std::optional<Ray> map_ray(ViewKind view, const Eigen::Vector2d& pixel) const = 0;
   // What could not be had and was replaced, e.g. missing fonts; each once.
   virtual std::vector<std::string> take_notes() = 0;
 

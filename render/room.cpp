@@ -86,7 +86,7 @@ std::optional<AlignedBox3d> scene_bounds(const Scene& scene, const RoomFromWorld
     Vector3d high;
     for (int i = 0; i < 3; ++i) {
       std::vector<double>& values = coordinates[static_cast<std::size_t>(i)];
-      const std::size_t stray = values.size() / 50;
+      const std::size_t stray = values.size() / 100;
       const auto at = [&values](std::size_t rank) {
         std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank),
                          values.end());

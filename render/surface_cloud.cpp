@@ -14,6 +14,8 @@ static_assert(sizeof(SurfacePoint) == 16, "surface points are uploaded as they a
 
 // Elements smaller than this many pixels are drawn as every second, fourth or eighth one, larger.
 constexpr float kFinestPoint = 1.2F;
+// With more, coarser levels are taken: a software rasteriser draws some 7 million points a second.
+constexpr std::size_t kMostPoints = 160000;
 
 // How often an element may be skipped: 3 when only every eighth element each way is drawn, 0 when
 // all are. Elements are counted on the grid, along the two axes in which the surface extends there.
@@ -156,11 +158,9 @@ std::size_t SurfaceCloud::update(const Surface& surface) {
   return uploaded;
 }
 
-void SurfaceCloud::draw(const View& view, const Eigen::Vector3f& light_in_camera) const {
-  if (slots_.empty()) return;
+SurfaceCloud::Batches SurfaceCloud::batches(const View& view, float finest_point) const {
   const Eigen::Matrix4f camera_from_world = view.world_from_camera.inverse().matrix().cast<float>();
-  std::array<std::vector<GLint>, kLevels> firsts;
-  std::array<std::vector<GLsizei>, kLevels> counts;
+  Batches batches;
   for (const auto& [key, slot] : slots_) {
     if (slot.block->points.empty()) continue;
     const Eigen::Vector3f centre =
@@ -168,10 +168,22 @@ void SurfaceCloud::draw(const View& view, const Eigen::Vector3f& light_in_camera
     if (!seen(view, centre, slot.radius)) continue;
     float element = slot.block->size * px_per_metre(view, centre.z() - slot.radius);
     std::size_t level = 0;
-    for (; level + 1 < kLevels && element < kFinestPoint; ++level) element *= 2;
-    firsts[level].push_back(slot.first);
+    for (; level + 1 < kLevels && element < finest_point; ++level) element *= 2;
+    batches.firsts[level].push_back(slot.first);
     // At least one point: small blocks do not vanish, and Mesa 22 loses what follows an empty draw.
-    counts[level].push_back(std::max(slot.counts[level], 1));
+    batches.counts[level].push_back(std::max(slot.counts[level], 1));
+    batches.points += static_cast<std::size_t>(batches.counts[level].back());
+  }
+  return batches;
+}
+
+std::size_t SurfaceCloud::draw(const View& view, const Eigen::Vector3f& light_in_camera) const {
+  if (slots_.empty()) return 0;
+  float finest_point = kFinestPoint;
+  Batches drawn = batches(view, finest_point);
+  while (drawn.points > kMostPoints && finest_point < 8 * kFinestPoint) {
+    finest_point *= 1.25F;
+    drawn = batches(view, finest_point);
   }
   program_.use();
   set_view(program_, view);
@@ -180,12 +192,13 @@ void SurfaceCloud::draw(const View& view, const Eigen::Vector3f& light_in_camera
   gl_->Enable(GL_PROGRAM_POINT_SIZE);
   const float size = slots_.begin()->second.block->size;
   for (std::size_t level = 0; level < kLevels; ++level) {
-    if (firsts[level].empty()) continue;
+    if (drawn.firsts[level].empty()) continue;
     program_.set("element_size", size * static_cast<float>(1 << level));
-    gl_->MultiDrawArrays(GL_POINTS, firsts[level].data(), counts[level].data(),
-                         static_cast<GLsizei>(firsts[level].size()));
+    gl_->MultiDrawArrays(GL_POINTS, drawn.firsts[level].data(), drawn.counts[level].data(),
+                         static_cast<GLsizei>(drawn.firsts[level].size()));
   }
   gl_->Disable(GL_PROGRAM_POINT_SIZE);
+  return drawn.points;
 }
 
 }  // namespace armsreach::render

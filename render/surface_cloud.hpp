@@ -23,8 +23,8 @@ class SurfaceCloud {
   // points uploaded.
   std::size_t update(const Surface& surface);
   // Into the bound framebuffer, testing depth. Far blocks are drawn with fewer points.
-  // `light_in_camera` points towards the light.
-  void draw(const View& view, const Eigen::Vector3f& light_in_camera) const;
+  // `light_in_camera` points towards the light. Returns the number of points drawn.
+  std::size_t draw(const View& view, const Eigen::Vector3f& light_in_camera) const;
 
   static constexpr std::size_t kLevels = 4;  // of detail
 
@@ -38,6 +38,14 @@ class SurfaceCloud {
     float radius = 0;
   };
 
+  // What to draw of each level: the beginnings of slots.
+  struct Batches {
+    std::array<std::vector<GLint>, kLevels> firsts;
+    std::array<std::vector<GLsizei>, kLevels> counts;
+    std::size_t points = 0;
+  };
+
+  Batches batches(const View& view, float finest_point) const;
   GLint allocate(std::uint32_t capacity);
   void grow(std::uint32_t points);
   void describe_points() const;

@@ -160,6 +160,7 @@ class WindowContext final : public Context {
     });
     glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int) {
       if (action == GLFW_RELEASE) return;
+      if (key == GLFW_KEY_F11 && action == GLFW_PRESS) of(window).toggle_full_screen();
       if (const auto press = key_press(key)) of(window).pending_.keys.push_back(*press);
     });
     glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned int codepoint) {
@@ -167,7 +168,21 @@ class WindowContext final : public Context {
     });
   }
 
+  void toggle_full_screen() {
+    if (glfwGetWindowMonitor(window_)) {
+      glfwSetWindowMonitor(window_, nullptr, place_[0], place_[1], place_[2], place_[3], 0);
+      return;
+    }
+    glfwGetWindowPos(window_, &place_[0], &place_[1]);
+    glfwGetWindowSize(window_, &place_[2], &place_[3]);
+    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+    const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+    if (mode)
+      glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+  }
+
   GLFWwindow* window_ = nullptr;
+  std::array<int, 4> place_{};  // position and size to return to from the full screen
   bool initialised_ = false;
   InputState pending_;
 };

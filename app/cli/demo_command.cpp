@@ -32,9 +32,8 @@ Config tour() {
   config.width = 1280;
   config.height = 720;
   config.layout = "wearer";
-  config.actions = {insert(40, 330, 330, "teapot"), show(120, "operator"),
-                    insert(170, 220, 320, "cube"), insert(230, 430, 300, "axes"),
-                    show(360, "wearer")};
+  config.actions = {insert(40, 330, 330, "teapot"), insert(65, 456, 335, "cube"),
+                    insert(90, 110, 338, "axes"), show(120, "operator"), show(360, "wearer")};
   return config;
 }
 

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/commands.hpp"
+#include "app/runtime/output_file.hpp"
 #include "devices/open.hpp"
 #include "vision/core/depth_consistency.hpp"
 #include "vision/core/trajectory.hpp"
@@ -108,11 +109,7 @@ Status evaluate(const EvaluateOptions& options) {
     std::printf("depth 30 frames on   %.2e 1/m (median |dz| / z^2)\n", *reprojected);
     json["reprojected_depth"] = *reprojected;
   }
-  if (options.json.empty()) return ok();
-  std::ofstream out(options.json);
-  out << json.dump(2) << "\n";
-  if (!out.flush()) return Error{"cannot be written", options.json, "check folder and disk"};
-  return ok();
+  return write_file(options.json, [&](std::ostream& out) { out << json.dump(2) << "\n"; });
 }
 
 }  // namespace

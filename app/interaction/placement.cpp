@@ -8,10 +8,10 @@
 namespace armsreach::app {
 namespace {
 
-constexpr double kReach = 10;          // m: clicks beyond are at nothing
-constexpr double kFootRadius = 0.06;   // m: what an object stands on
+constexpr double kReach = 10;           // m: clicks beyond are at nothing
+constexpr double kFootRadius = 0.06;    // m: what an object stands on
 constexpr double kMiddleHeight = 0.06;  // m above an object's foot
-constexpr double kSelectRadius = 0.1;  // m: how close a click passes by an object that it means
+constexpr double kSelectRadius = 0.1;   // m: how close a click passes by an object that it means
 
 // Stands on the plane (z is its normal) and has the viewer in front (-y).
 Pose standing_pose(const Eigen::Vector3d& foot, const Eigen::Vector3d& up,

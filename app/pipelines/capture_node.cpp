@@ -14,7 +14,7 @@ constexpr int kMostBrokenInARow = 30;
 CaptureNode::CaptureNode(Rig& rig, const Options& options, EventLog& log)
     : Node("capture",
            [this, &log](const std::string& stage, const std::string& what) {
-             log.write({last_time_, FaultEvent{stage, what, "see the source's own messages"}});
+             log.write({log_.now(), FaultEvent{stage, what, "see the source's own messages"}});
            }),
       rig_(rig),
       options_(options),
@@ -29,7 +29,7 @@ bool CaptureNode::turn() {
   if (options_.pace == Pace::live && !rig_.live()) wait_until_due(frame->time);
   auto stamped = std::make_shared<Frame>(*frame);
   stamped->arrival = std::chrono::steady_clock::now().time_since_epoch().count();
-  last_time_ = frame->time;
+  log_.set_now(frame->time);
   ++delivered_;
   outlet_.push(std::move(stamped));
   return true;
@@ -54,7 +54,7 @@ FramePtr CaptureNode::next_frame() {
     if (good) {
       const Error& error = result->error();
       log_.write(
-          {last_time_, FaultEvent{"capture", error.where + ": " + error.what, error.remedy}});
+          {log_.now(), FaultEvent{"capture", error.where + ": " + error.what, error.remedy}});
       if (error.kind == Error::Kind::device || ++broken_in_a_row_ >= kMostBrokenInARow) {
         failure_ = error;
         return nullptr;

@@ -10,8 +10,9 @@
 namespace armsreach::app {
 namespace {
 
-constexpr float kTrailStep = 0.01F;     // m between kept points of the camera's trail
-constexpr size_t kLongestTrail = 4000;  // points
+constexpr float kTrailStep = 0.01F;                // m between kept points of the camera's trail
+constexpr Timestamp kMessageTime = 4'000'000'000;  // ns that a message is shown
+constexpr size_t kLongestTrail = 4000;             // points
 constexpr int kOcclusionReduction = 2;  // depth is compared at half the video's resolution
 
 // A camera without colour still shows something: its depth, near bright, 4 m dark.
@@ -34,15 +35,13 @@ struct BodyToText {
   std::string operator()(const InsertEvent& e) const { return e.object + " inserted"; }
   std::string operator()(const MoveEvent& e) const { return e.object + " moved"; }
   std::string operator()(const DeleteEvent& e) const { return e.object + " deleted"; }
-  std::string operator()(const FaultEvent& e) const {
-    return e.component + ": " + e.message + (e.remedy.empty() ? "" : " - " + e.remedy);
-  }
+  std::string operator()(const FaultEvent& e) const { return e.message; }
 };
 
 }  // namespace
 
-Composer::Composer(const EventLog& log, StageRows stage_rows)
-    : log_(log), stage_rows_(std::move(stage_rows)) {}
+Composer::Composer(const EventLog& log, StageRows stage_rows, Latency latency)
+    : log_(log), stage_rows_(std::move(stage_rows)), latency_(std::move(latency)) {}
 
 ComposedPtr Composer::process(const ComposeInput& input) {
   if (!input.tracked) return nullptr;  // the tracker failed on this frame and has said so
@@ -58,9 +57,10 @@ ComposedPtr Composer::process(const ComposeInput& input) {
   add_tracking(tracked, scene.get());
   if (input.map) scene->surface = input.map->surface;
   add_objects(world, scene.get());
-  add_messages(scene.get());
+  add_messages(tracked.frame->time, scene.get());
   measure_rate(tracked.frame->arrival);
   scene->frame_rate = frame_rate_;
+  scene->latency = latency_();
   scene->stages = stage_rows_();
   composed->scene = std::move(scene);
   return composed;
@@ -116,8 +116,9 @@ void Composer::add_objects(const WorldView* world, render::Scene* scene) {
   }
 }
 
-void Composer::add_messages(render::Scene* scene) {
+void Composer::add_messages(Timestamp now, render::Scene* scene) {
   for (const Event& event : log_.recent()) {
+    if (now - event.time > kMessageTime) continue;
     scene->messages.push_back({severity_of(event), std::visit(BodyToText{}, event.body)});
   }
 }
@@ -131,6 +132,7 @@ Events Composer::apply(const std::vector<UserInput>& user, const WorldView* worl
   };
   const Timestamp time = tracked.frame->time;
   for (const UserInput& input : user) {
+    for (const FaultEvent& fault : input.faults) events.push_back({time, fault});
     for (const Click& click : input.clicks) {
       add(placement_.click(click, world, tracked.world_from_camera.translation(), time));
     }

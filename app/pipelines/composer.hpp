@@ -21,6 +21,9 @@ namespace armsreach::app {
 struct UserInput {
   std::vector<Click> clicks;
   bool delete_selected = false;
+  std::vector<FaultEvent> faults;  // what could not be done
+
+  bool asks() const { return !clicks.empty() || delete_selected || !faults.empty(); }
 };
 
 struct ComposeInput {
@@ -39,7 +42,8 @@ using ComposedPtr = std::shared_ptr<const Composed>;
 class Composer final : public Stage<ComposeInput, ComposedPtr> {
  public:
   using StageRows = std::function<std::vector<render::StageRow>()>;
-  Composer(const EventLog& log, StageRows stage_rows);
+  using Latency = std::function<double()>;  // s, of the overlay that was drawn last
+  Composer(const EventLog& log, StageRows stage_rows, Latency latency);
 
   std::string name() const override { return "composing"; }
   ComposedPtr process(const ComposeInput& input) override;
@@ -48,13 +52,14 @@ class Composer final : public Stage<ComposeInput, ComposedPtr> {
   void add_video(const TrackedFrame& tracked, render::Scene* scene);
   void add_tracking(const TrackedFrame& tracked, render::Scene* scene);
   void add_objects(const WorldView* world, render::Scene* scene);
-  void add_messages(render::Scene* scene);
+  void add_messages(Timestamp now, render::Scene* scene);
   Events apply(const std::vector<UserInput>& user, const WorldView* world,
                const TrackedFrame& tracked);
   void measure_rate(std::int64_t arrival);
 
   const EventLog& log_;
   StageRows stage_rows_;
+  Latency latency_;
   Placement placement_;
   std::vector<Eigen::Vector3f> camera_trail_;
   std::int64_t last_arrival_ = 0;

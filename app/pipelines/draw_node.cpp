@@ -9,7 +9,7 @@ DrawNode::DrawNode(Presenter& presenter, Journal& journal, EventLog& log, Connec
                    std::function<void()> stop_sources)
     : Node("drawing",
            [this, &log](const std::string& stage, const std::string& what) {
-             log.write({0, FaultEvent{stage, what, "see the README's list of displays"}});
+             log.write({log.now(), FaultEvent{stage, what, "see 'Displays' in the README"}});
              fail({what, stage, "", Error::Kind::device});
            }),
       presenter_(presenter),
@@ -23,53 +23,56 @@ DrawNode::DrawNode(Presenter& presenter, Journal& journal, EventLog& log, Connec
 }
 
 bool DrawNode::turn() {
-  std::optional<ComposedPtr> next = next_scene();
+  const Next next = next_scene();
   while (auto tracked = connections_.tracked->try_pop()) {
     if (*tracked) journal_.record(**tracked);
   }
-  if (!next) {
+  if (next.ended) {
     finish();
     return false;
   }
-  const bool fresh = *next != nullptr && *next != shown_;
-  if (*next) shown_ = *next;
-  if (shown_ && !presenter_.should_close()) draw(*shown_, fresh);
-  if (presenter_.should_close()) stop_sources_();
+  if (next.fresh && next.scene) shown_ = next.scene;
+  UserInput user;
+  if (presenter_.should_close()) {
+    stop_sources_();
+  } else if (shown_) {
+    user = draw(*shown_, next.fresh && next.scene);
+  }
+  // The composer waits for one answer to each of its scenes.
+  if (next.fresh || user.asks()) connections_.user->push(std::move(user));
   return true;
 }
 
 // Without a person the scene is waited for; with one, the window answers whether or not there is a
-// new scene. Nothing at the end.
-std::optional<ComposedPtr> DrawNode::next_scene() {
+// new scene.
+DrawNode::Next DrawNode::next_scene() {
   if (!presenter_.interactive()) {
-    auto next = connections_.scenes->pop();
-    if (next && !*next) connections_.user->push({});  // keep step with the composer
-    return next;
+    auto scene = connections_.scenes->pop();
+    return scene ? Next{*scene, true, false} : Next{nullptr, false, true};
   }
   presenter_.wait();
-  auto next = connections_.scenes->try_pop();
-  if (next) return next;
-  if (connections_.scenes->finished()) return std::nullopt;
-  return shown_;
+  if (auto scene = connections_.scenes->try_pop()) return {*scene, true, false};
+  return {nullptr, false, connections_.scenes->finished()};
 }
 
-void DrawNode::draw(const Composed& composed, bool fresh) {
+UserInput DrawNode::draw(const Composed& composed, bool fresh) {
   if (fresh) {
     for (const Event& event : composed.events) log_.write(event);
   }
+  UserInput user;
   guarded([&] {
-    Result<UserInput> user = presenter_.present(*composed.scene);
-    if (!user) {
-      fail(user.error());
-      user = UserInput{};
-    }
-    if (fresh || !user->clicks.empty() || user->delete_selected) {
-      connections_.user->push(std::move(*user));
+    Result<UserInput> presented = presenter_.present(*composed.scene);
+    if (presented) {
+      user = *std::move(presented);
+    } else {
+      fail(presented.error());
     }
   });
-  if (!fresh) return;
-  const std::int64_t now = std::chrono::steady_clock::now().time_since_epoch().count();
-  latency_.record(1e-9 * static_cast<double>(now - composed.arrival));
+  if (fresh) {
+    const std::int64_t now = std::chrono::steady_clock::now().time_since_epoch().count();
+    latency_.record(1e-9 * static_cast<double>(now - composed.arrival));
+  }
+  return user;
 }
 
 void DrawNode::finish() {
@@ -79,7 +82,7 @@ void DrawNode::finish() {
 void DrawNode::fail(const Error& error) {
   if (failure_) return;
   failure_ = error;
-  log_.write({0, FaultEvent{"drawing", error.where + ": " + error.what, error.remedy}});
+  log_.write({log_.now(), FaultEvent{"drawing", error.where + ": " + error.what, error.remedy}});
   stop_sources_();
 }
 

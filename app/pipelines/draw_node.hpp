@@ -32,8 +32,13 @@ class DrawNode final : public Node {
   const std::optional<Error>& failure() const { return failure_; }
 
  private:
-  std::optional<ComposedPtr> next_scene();
-  void draw(const Composed& composed, bool fresh);
+  struct Next {
+    ComposedPtr scene;  // null: nothing new, or composing failed
+    bool fresh = false;
+    bool ended = false;
+  };
+  Next next_scene();
+  UserInput draw(const Composed& composed, bool fresh);
   void finish();
   void fail(const Error& error);
 

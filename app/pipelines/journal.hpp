@@ -1,11 +1,11 @@
 // Writes down every tracked frame: the trajectory file, and an event whenever the state changes.
 #pragma once
 
-#include <fstream>
 #include <optional>
 #include <string>
 
 #include "app/runtime/event_log.hpp"
+#include "app/runtime/output_file.hpp"
 #include "vision/core/result.hpp"
 #include "vision/core/tracked_frame.hpp"
 
@@ -15,17 +15,17 @@ class Journal {
  public:
   explicit Journal(EventLog& log) : log_(log) {}
 
-  Status open(const std::string& trajectory_path);  // "" writes no file
+  // "" writes no file.
+  Status open(const std::string& trajectory_path) { return file_.open(trajectory_path); }
   void record(const TrackedFrame& tracked);
-  Status close();
+  Status close() { return file_.close(); }
 
   std::int64_t frames() const { return frames_; }
   std::int64_t tracked_frames() const { return tracked_frames_; }
 
  private:
   EventLog& log_;
-  std::string path_;
-  std::ofstream file_;
+  OutputFile file_;
   std::optional<TrackingState> state_;
   std::int64_t frames_ = 0;
   std::int64_t tracked_frames_ = 0;

@@ -1,5 +1,6 @@
 #include "app/pipelines/presenter.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <system_error>
@@ -14,6 +15,14 @@ render::ContextKind kind_from_name(const std::string& name) {
   if (name == "egl") return render::ContextKind::egl;
   if (name == "osmesa") return render::ContextKind::osmesa;
   return render::ContextKind::automatic;
+}
+
+render::ViewKind view_from_name(const std::string& name) {
+  if (name == "map") return render::ViewKind::map;
+  if (name == "top") return render::ViewKind::top;
+  if (name == "front") return render::ViewKind::front;
+  if (name == "side") return render::ViewKind::side;
+  return render::ViewKind::live;
 }
 
 UserInput user_input(const render::Requests& requests) {
@@ -33,6 +42,8 @@ render::Layout layout_from_name(const std::string& name) {
 
 Result<std::unique_ptr<Presenter>> Presenter::make(const PresenterOptions& options) {
   std::unique_ptr<Presenter> presenter(new Presenter(options));
+  std::stable_sort(presenter->options_.actions.begin(), presenter->options_.actions.end(),
+                   [](const Action& a, const Action& b) { return a.frame < b.frame; });
   if (options.display != "none") {
     render::ContextOptions context_options;
     context_options.kind = kind_from_name(options.display);
@@ -68,7 +79,8 @@ Status Presenter::make_picture_keepers() {
   recording.width = options_.width;
   recording.height = options_.height;
   recording.rate = options_.rate;
-  recording.pace = options_.may_drop ? render::RecordingPace::live : render::RecordingPace::every_frame;
+  recording.pace =
+      options_.may_drop ? render::RecordingPace::live : render::RecordingPace::every_frame;
   auto recorder = render::Recorder::open(recording);
   if (!recorder) return recorder.error();
   recorder_ = std::move(*recorder);
@@ -78,9 +90,10 @@ Status Presenter::make_picture_keepers() {
 Result<UserInput> Presenter::present(const render::Scene& scene) {
   UserInput user;
   if (renderer_) {
-    const render::InputState input = context_->poll_input();
-    user = user_input(renderer_->draw(scene, input));
-    context_->swap();
+    user = user_input(renderer_->draw(scene, input_for_picture()));
+    for (const std::string& note : renderer_->take_notes()) {
+      user.faults.push_back({"drawing", note, "see 'Displays' in the README"});
+    }
   }
   const bool fresh = scene.frame != last_drawn_;
   last_drawn_ = scene.frame;
@@ -90,16 +103,45 @@ Result<UserInput> Presenter::present(const render::Scene& scene) {
   return user;
 }
 
-// An action is a click that nobody had to make: from here on nothing tells the two apart.
+// A window's picture takes the window's size, unless it is filmed: then it keeps its own and the
+// mouse is brought to it.
+render::InputState Presenter::input_for_picture() {
+  render::InputState input = context_->poll_input();
+  if (!interactive() || context_->width() == 0 || context_->height() == 0) return input;
+  if (!recorder_ && options_.screenshots.empty() &&
+      (context_->width() != options_.width || context_->height() != options_.height)) {
+    if (renderer_->resize(context_->width(), context_->height())) {
+      options_.width = context_->width();
+      options_.height = context_->height();
+    }
+  }
+  input.mouse.x() *= static_cast<float>(options_.width) / static_cast<float>(context_->width());
+  input.mouse.y() *= static_cast<float>(options_.height) / static_cast<float>(context_->height());
+  return input;
+}
+
+// An action is a click that nobody had to make: from here on nothing tells the two apart. Live, one
+// whose own frame was skipped is done on the next.
 void Presenter::add_actions(const render::Scene& scene, UserInput* user) {
-  for (const Action& action : options_.actions) {
-    if (action.frame != scene.frame) continue;
+  for (; next_action_ < options_.actions.size(); ++next_action_) {
+    const Action& action = options_.actions[next_action_];
+    if (action.frame > scene.frame) break;
     if (!action.layout.empty()) {
       if (renderer_) renderer_->set_layout(layout_from_name(action.layout));
       continue;
     }
-    const auto ray = render::ray_through(scene, action.click);
-    if (ray) user->clicks.push_back({*ray, action.insert});
+    const render::ViewKind view = view_from_name(action.view);
+    const auto ray = view == render::ViewKind::live ? render::ray_through(scene, action.click)
+                     : renderer_                    ? renderer_->map_ray(view, action.click)
+                                                    : std::nullopt;
+    if (ray) {
+      user->clicks.push_back({*ray, action.insert});
+    } else {
+      user->faults.push_back({"actions",
+                              "the click at frame " + std::to_string(action.frame) +
+                                  " met no view '" + action.view + "'",
+                              "the map's views need layout: operator, the live view a known pose"});
+    }
   }
 }
 

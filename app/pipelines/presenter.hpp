@@ -49,6 +49,7 @@ class Presenter {
  private:
   explicit Presenter(const PresenterOptions& options) : options_(options) {}
   Status make_picture_keepers();
+  render::InputState input_for_picture();
   void add_actions(const render::Scene& scene, UserInput* user);
   Status keep_picture(const render::Scene& scene);
   Status save_screenshot(std::int64_t frame);
@@ -57,7 +58,7 @@ class Presenter {
   std::unique_ptr<render::Context> context_;    // null with display none
   std::unique_ptr<render::Renderer> renderer_;  // null with display none
   std::unique_ptr<render::Recorder> recorder_;  // null without --record
-  std::string mesh_to_insert_;
+  std::size_t next_action_ = 0;
   std::int64_t last_drawn_ = -1;
   std::int64_t last_saved_ = -1;
 };

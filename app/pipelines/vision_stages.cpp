@@ -1,8 +1,8 @@
 #include "app/pipelines/vision_stages.hpp"
 
-#include <fstream>
 #include <utility>
 
+#include "app/runtime/output_file.hpp"
 #include "vision/mapping/octree_codec.hpp"
 
 namespace armsreach::app {
@@ -46,12 +46,8 @@ MapStatePtr MappingStage::process(const TrackedFramePtr& tracked) {
 }
 
 Status MappingStage::save(const std::string& path) const {
-  std::ofstream out(path, std::ios::binary);
-  if (!out) return Error{"cannot be written", path, "check that its folder exists and is yours"};
-  mapping::write_octree(out, mapper_.map().grid());
-  out.close();
-  if (out) return ok();
-  return Error{"could not be written completely", path, "is the disk full?", Error::Kind::device};
+  return write_file(path,
+                    [&](std::ostream& out) { mapping::write_octree(out, mapper_.map().grid()); });
 }
 
 }  // namespace armsreach::app

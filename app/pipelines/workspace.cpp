@@ -1,7 +1,6 @@
 #include "app/pipelines/workspace.hpp"
 
 #include <chrono>
-#include <fstream>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -13,6 +12,7 @@
 #include "app/pipelines/vision_stages.hpp"
 #include "app/runtime/interrupt.hpp"
 #include "app/runtime/memory.hpp"
+#include "app/runtime/output_file.hpp"
 #include "app/runtime/runner.hpp"
 
 namespace armsreach::app {
@@ -115,7 +115,9 @@ void Workspace::join_mapping() {
 
 void Workspace::join_composing() {
   composing_ = std::make_unique<ComposingNode>(
-      std::make_unique<Composer>(log_, [this] { return stage_rows(); }),
+      std::make_unique<Composer>(
+          log_, [this] { return stage_rows(); },
+          [this] { return drawing_->latency().percentile(0.5); }),
       [this]() -> std::optional<ComposeInput> {
         auto tracked = to_compose_->pop();
         if (!tracked) return std::nullopt;
@@ -133,7 +135,7 @@ void Workspace::join_drawing(Presenter& presenter) {
 
 FaultHandler Workspace::fault_handler() {
   return [this](const std::string& stage, const std::string& what) {
-    log_.write({0, FaultEvent{stage, what, "the stage goes on with the next frame"}});
+    log_.write({log_.now(), FaultEvent{stage, what, "the stage goes on with the next frame"}});
   };
 }
 
@@ -214,10 +216,7 @@ Status Workspace::write_stats(const RunSummary& result) {
         {"p99", latency.percentile(0.99)}}},
       {"peak_memory_mb", peak_memory_mb()},
       {"stages", stages}};
-  std::ofstream out(options_.stats);
-  out << stats.dump(2) << "\n";
-  if (!out.flush()) return Error{"cannot be written", options_.stats, "check folder and disk"};
-  return ok();
+  return write_file(options_.stats, [&](std::ostream& out) { out << stats.dump(2) << "\n"; });
 }
 
 Status Workspace::first_failure() {

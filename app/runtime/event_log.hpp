@@ -1,12 +1,13 @@
 // Where events go: a JSON Lines file, when asked for, and the last few for the panels.
 #pragma once
 
+#include <atomic>
 #include <deque>
-#include <fstream>
 #include <mutex>
 #include <string>
 #include <vector>
 
+#include "app/runtime/output_file.hpp"
 #include "vision/core/event.hpp"
 #include "vision/core/result.hpp"
 
@@ -14,17 +15,21 @@ namespace armsreach::app {
 
 class EventLog {
  public:
-  Status open(const std::string& path);  // "" keeps events in memory only
-  void write(const Event& event);        // from any thread
-  std::vector<Event> recent() const;     // newest last
+  // "" keeps events in memory only.
+  Status open(const std::string& path) { return file_.open(path); }
+  void write(const Event& event);  // from any thread
+  // Source time of the newest frame, for events that belong to none.
+  void set_now(Timestamp time) { now_.store(time, std::memory_order_relaxed); }
+  Timestamp now() const { return now_.load(std::memory_order_relaxed); }
+  std::vector<Event> recent() const;  // newest last
   // Says whether everything reached the disk.
   Status close();
 
  private:
+  std::atomic<Timestamp> now_{0};
   static constexpr std::size_t kRecent = 16;
   mutable std::mutex mutex_;
-  std::string path_;
-  std::ofstream file_;
+  OutputFile file_;
   std::deque<Event> recent_;
 };
 

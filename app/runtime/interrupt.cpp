@@ -1,13 +1,12 @@
 #include "app/runtime/interrupt.hpp"
 
+#include <array>
+#include <csignal>
+#include <cstdint>
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/signalfd.h>
 #include <unistd.h>
-
-#include <array>
-#include <csignal>
-#include <cstdint>
 #include <utility>
 
 namespace armsreach::app {

@@ -31,4 +31,6 @@ void main() {
   clip.xy += 2.0 * shift / target_size * clip.w;
   gl_Position = hidden ? vec4(2.0, 2.0, 2.0, 1.0) : clip;
   color_ = end ? to_color : from_color;
+  // What passes close by the viewer would cross the whole picture.
+  if (view_model != 4) color_.a *= smoothstep(0.12, 0.45, clip.w);
 }

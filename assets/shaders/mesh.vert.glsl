@@ -38,7 +38,7 @@ void main() {
   vec3 glaze = fresnel * mix(vec3(0.16), vec3(0.9, 0.92, 0.95), ceiling) +
                0.06 * lobe(n, key_in_camera, viewer, 12.0) + 0.10 * lobe(n, fill_in_camera, viewer, 40.0);
   // Near the plane it stands on, what faces down sees little light.
-  float open = 1.0 - 0.75 * (1.0 - upwards) * exp(-position.z / 0.02);
+  float open = 1.0 - 0.85 * (1.0 - upwards * upwards) * exp(-position.z / 0.012);
   shade = pow(color.rgb, vec3(2.2)) * (ambient + diffuse) + glaze;
   shade *= open;
 }

@@ -16,4 +16,4 @@ std::optional<std::filesystem::path> recording(const std::string& name);
 #define ARMSREACH_RECORDING_OR_SKIP(path, name)                                       \
   const auto path##_found = ::armsreach::test::recording(name);                       \
   if (!path##_found) GTEST_SKIP() << "set ARMSREACH_DATA to a folder that has " name; \
-  const std::filesystem::path path = *path##_found
+  const auto path = *path##_found

@@ -19,8 +19,9 @@ MapUpdate Mapper::process(const TrackedFrame& tracked) {
     ++revision_;
     update.inserted = true;
   }
-  // Also where a relocaliser put the camera: alignment against this view confirms it or not.
-  if (tracked.state != TrackingState::lost && due(options_.cast_every)) {
+  // Where a relocaliser put the camera at once: alignment against this view confirms it or not.
+  const bool relocalised = tracked.state == TrackingState::relocalised;
+  if (relocalised || (tracked.state != TrackingState::lost && due(options_.cast_every))) {
     update.reference = reference(tracked);
   }
   if (due(options_.view_every)) update.view = take_view();

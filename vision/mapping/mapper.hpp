@@ -18,11 +18,12 @@ namespace armsreach::mapping {
 struct MapperOptions {
   VoxelMapOptions map;
   RayCastOptions cast;
-  // How often, in frames processed; counted, never timed, so that runs repeat.
-  int insert_every = 1;
-  int cast_every = 1;
+  // How often, in frames processed; counted, never timed, so that runs repeat. Every third frame
+  // tracks as well as every frame and leaves most of a core to the rest of the program.
+  int insert_every = 3;
+  int cast_every = 3;
   int view_every = 3;
-  int surface_every = 10;
+  int surface_every = 9;
   int reference_width = 0;  // px of the reference view; 0: the tracked images' own
   // Pixels that did not fit the reference add no surface (moving things stay out of the map), but a
   // map that is wrong somewhere then takes longer to be put right.

@@ -2,6 +2,7 @@
 // linkage may be instantiated here: the linker would keep one level's copy for all.
 #include <cstring>
 
+#include "vision/mapping/sensor_model.hpp"
 #include "vision/mapping/update_block.hpp"
 
 namespace armsreach::mapping::ARMSREACH_KERNEL_LEVEL {
@@ -86,6 +87,9 @@ inline bool project(Lanes& lanes, const float (&start)[3], const FrameEvidence& 
   lanes.v = f.fy * lanes.y * inverse + (f.cy + 0.5F);
   lanes.inside = (lanes.z > 1e-3F) & (lanes.u >= 0.0F) & (lanes.v >= 0.0F) &
                  (lanes.u < static_cast<float>(f.width)) & (lanes.v < static_cast<float>(f.height));
+  // Lanes that do not count are made harmless before they become integers.
+  lanes.u = lanes.inside ? lanes.u : Floats{};
+  lanes.v = lanes.inside ? lanes.v : Floats{};
   return any(lanes.inside);
 }
 
@@ -116,12 +120,14 @@ inline void add_log_odds(VoxelCube& cube, const Surface& s, const Floats& margin
   const Ints in_front = banded & (s.distance > margin);
   Ints change = in_front & (Ints{} + f.free);
   if (any(hit)) {
-    Floats column = magnitude / margin * 64.0F;
-    least(column, Floats{} + 63.0F);
-    Floats line = 16.0F / (s.sigma * s.per_edge);
-    least(line, Floats{} + 127.0F);
-    Ints entry = __builtin_convertvector(line, Ints) * 64 + __builtin_convertvector(column, Ints);
-    entry &= hit;
+    Floats column = magnitude / margin * static_cast<float>(HitTable::kColumns);
+    Floats line = static_cast<float>(HitTable::kRowsPerRatio) / (s.sigma * s.per_edge);
+    least(column, Floats{} + static_cast<float>(HitTable::kColumns - 1));
+    least(line, Floats{} + static_cast<float>(HitTable::kRows - 1));
+    line = hit ? line : Floats{};
+    column = hit ? column : Floats{};
+    Ints entry = __builtin_convertvector(line, Ints) * HitTable::kColumns +
+                 __builtin_convertvector(column, Ints);
     for (int i = 0; i < kLanes; ++i) entry[i] = f.hits[entry[i]];
     change |= hit & entry;
   }
@@ -147,7 +153,7 @@ inline void intensity_at(Floats& out, const Lanes& lanes, const FrameEvidence& f
   line = line > f.height - 2 ? Ints{} + (f.height - 2) : line;
   const Floats a = u - __builtin_convertvector(column, Floats);
   const Floats b = v - __builtin_convertvector(line, Floats);
-  const Ints at = lanes.inside ? line * f.width + column : Ints{};
+  const Ints at = line * f.width + column;
   Quad squares[kLanes];
   for (int i = 0; i < kLanes; ++i) {
     const float* upper = f.intensity + at[i];
@@ -173,7 +179,8 @@ inline void add_intensity(VoxelCube& cube, const Lanes& lanes, const Ints& near,
   Floats rate = share;
   most(rate, Floats{} + f.intensity_rate);
   least(seen, Floats{} + 1.0F);
-  const Floats mean = before + rate * (seen * (1.0F / kIntensityUnit) - before) + 0.5F;
+  Floats mean = before + rate * (seen * (1.0F / kIntensityUnit) - before) + 0.5F;
+  mean = valid ? mean : Floats{};
   const Ints kept = __builtin_convertvector(stored, Ints);
   const Ints fresh = __builtin_convertvector(mean, Ints);
   store(cube.intensity, __builtin_convertvector(valid ? fresh : kept, Words));
@@ -205,6 +212,8 @@ inline void add_distance(VoxelCube& cube, const Lanes& lanes, const Surface& s, 
   weight += gain;
   least(weight, Floats{} + f.max_weight);
 
+  distance = valid ? distance : Floats{};
+  weight = valid ? weight : Floats{};
   // Rounded to nearest: conversion truncates, so the value is made positive first.
   const Ints new_distance = __builtin_convertvector(distance + 32768.5F, Ints) - 32768;
   const Ints new_weight = __builtin_convertvector(weight + 0.5F, Ints);

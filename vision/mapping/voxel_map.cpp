@@ -7,57 +7,12 @@
 
 #include "vision/mapping/depth_band.hpp"
 #include "vision/mapping/depth_planes.hpp"
+#include "vision/mapping/frame_evidence.hpp"
 #include "vision/mapping/update_block.hpp"
 #include "vision/mapping/view_frustum.hpp"
 
 namespace armsreach::mapping {
 namespace {
-
-FrameEvidence frame_evidence(const VoxelMapOptions& options, const HitTable& hits,
-                             const DepthPlanes& planes, const cv::Mat& intensity,
-                             const Camera& camera, const Pose& camera_from_world) {
-  FrameEvidence frame;
-  frame.planes = planes.planes.data();
-  frame.intensity = intensity.empty() ? nullptr : intensity.ptr<float>();
-  frame.width = planes.width;
-  frame.height = planes.height;
-  frame.fx = static_cast<float>(camera.fx);
-  frame.fy = static_cast<float>(camera.fy);
-  frame.cx = static_cast<float>(camera.cx);
-  frame.cy = static_cast<float>(camera.cy);
-  const Eigen::Matrix3d rotation = camera_from_world.rotation_matrix();
-  for (int axis = 0; axis < 3; ++axis) {
-    for (int i = 0; i < 3; ++i) frame.step[axis][i] = static_cast<float>(rotation(i, axis));
-  }
-  for (int lane = 0; lane < 8; ++lane) {
-    for (int i = 0; i < 3; ++i) {
-      frame.corner[i][lane] = static_cast<float>(lane & 1) * frame.step[0][i] +
-                              static_cast<float>(lane >> 1 & 1) * frame.step[1][i] +
-                              static_cast<float>(lane >> 2) * frame.step[2][i];
-    }
-  }
-  for (int cube = 0; cube < kBlockVoxels / 8; ++cube) {
-    const VoxelInBlock first = voxel_at(8 * cube);
-    for (int i = 0; i < 3; ++i) {
-      frame.cube[cube][i] = static_cast<float>(first.x) * frame.step[0][i] +
-                            static_cast<float>(first.y) * frame.step[1][i] +
-                            static_cast<float>(first.z) * frame.step[2][i];
-    }
-  }
-  frame.cube_near = *std::min_element(frame.corner[2], frame.corner[2] + 8);
-  frame.cube_far = *std::max_element(frame.corner[2], frame.corner[2] + 8);
-  frame.voxel = static_cast<float>(options.resolution);
-  frame.noise = static_cast<float>(options.sensor.noise * options.resolution);
-  frame.hits = hits.data();
-  frame.free = fixed_log_odds(options.sensor.free);
-  frame.lowest = fixed_log_odds(options.least_certain);
-  frame.highest = fixed_log_odds(options.most_certain);
-  frame.occupied_above = fixed_log_odds(options.occupied_above);
-  frame.max_weight =
-      static_cast<float>(std::min(options.max_weight / static_cast<double>(kWeightUnit), 65535.0));
-  frame.intensity_rate = static_cast<float>(options.intensity_rate);
-  return frame;
-}
 
 // Centre of a block's voxel (0,0,0), in voxel edges.
 Eigen::Vector3d first_voxel(const BlockKey& key) {

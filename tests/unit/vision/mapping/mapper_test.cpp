@@ -68,6 +68,7 @@ TEST(Mapper, FramesThatAreNotTrustedDoNotTouchTheMap) {
 TEST(Mapper, RunsRepeatBitForBit) {
   const auto run = [] {
     MapperOptions options;
+    options.insert_every = options.cast_every = 1;
     options.map.max_blocks = 900;  // forgetting, too, is the same
     Mapper mapper(options);
     std::vector<cv::Mat> views;
