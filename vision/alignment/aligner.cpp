@@ -15,6 +15,9 @@ constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 constexpr double kTukey = 4.685;  // cutoff in deviations; 95 % efficient on normal residuals
 // Quantisation alone leaves this much, so that exact images do not divide by zero.
 constexpr ResidualScales kLeastScales{3e-4, 2e-3};
+// Quantised depth may agree exactly on most pixels and differ by a whole step on the rest: the
+// scale is at least this times the camera's own noise, about what interpolation leaves of it.
+constexpr double kOfPixelNoise = 0.7;
 constexpr int kScaleSamples = 2048;  // residuals a median is taken of
 constexpr int kNoiseSamples = 256;   // pixels that stand for all where noise is assessed
 constexpr int kLeastResiduals = 64;
@@ -121,11 +124,13 @@ Residuals Aligner::residuals(const Level& source, const Level& target,
   return out;
 }
 
-ResidualScales Aligner::scales(const Residuals& residuals, int size) {
+ResidualScales Aligner::scales(const Residuals& residuals, int size,
+                               const ResidualScales& pixel_noise) {
   const int stride = size / kScaleSamples | 1;
   const std::size_t count = size;
   return {
-      std::max(kLeastScales.depth, robust_scale_({residuals.depth, count}, stride).scale),
+      std::max({kLeastScales.depth, kOfPixelNoise * pixel_noise.depth,
+                robust_scale_({residuals.depth, count}, stride).scale}),
       std::max(kLeastScales.intensity, robust_scale_({residuals.intensity, count}, stride).scale)};
 }
 
@@ -158,10 +163,10 @@ ResidualScales Aligner::pixel_noise(const Level& level) {
 // Noise of variance s^2 in the pixels of both images leaves about s^2 / 2 in the mean of a central
 // difference and an interpolated cell's derivative.
 Matrix6d Aligner::feigned_information(const Residuals& residuals, const Level& reference,
-                                      const Level& camera, const ResidualScales& scales) {
+                                      const Level& camera, const ResidualScales& noise,
+                                      const ResidualScales& scales) const {
   const int size = size_of(reference);
   const int stride = size / kNoiseSamples | 1;
-  const ResidualScales noise = pixel_noise(camera);
   const auto gain = [](double alpha, double noise_scale, double scale) {
     const double ratio = std::min(1.0, noise_scale / scale);
     return alpha * ratio * ratio;
@@ -189,11 +194,12 @@ Matrix6d Aligner::feigned_information(const Residuals& residuals, const Level& r
 bool Aligner::refine(const Level& camera, const Level& reference, int iterations,
                      Estimate& estimate) {
   const int size = size_of(reference);
+  const ResidualScales noise = pixel_noise(camera);
   const double converged = kConverged / camera.camera().fx;  // rad, and m at a distance of 1 m
   for (int i = 0; i < iterations; ++i) {
     const Residuals found =
         residuals(reference, camera, estimate.camera_from_reference, estimate.intensity_offset);
-    const ResidualScales spread = scales(found, size);
+    const ResidualScales spread = scales(found, size, noise);
     std::array<double, kSums> sums;
     kernels_.accumulate(found, size, depth_weighting(spread), intensity_weighting(spread),
                         sums.data());
@@ -204,7 +210,7 @@ bool Aligner::refine(const Level& camera, const Level& reference, int iterations
     estimate.information = step.information;
     const bool last = i + 1 == iterations || step.motion.lpNorm<Eigen::Infinity>() < converged;
     if (!last) continue;
-    estimate.feigned_information = feigned_information(found, reference, camera, spread);
+    estimate.feigned_information = feigned_information(found, reference, camera, noise, spread);
     break;
   }
   return estimate.camera_from_reference.is_finite();
@@ -221,7 +227,7 @@ void Aligner::weigh(const Level& camera, const Level& reference, AlignmentResult
       own_depth
           ? residuals(camera, reference, reference_from_camera, -result.intensity_offset)
           : residuals(reference, camera, reference_from_camera.inverse(), result.intensity_offset);
-  result.scales = scales(found, size);
+  result.scales = scales(found, size, pixel_noise(camera));
   float* const weights = found.depth_gX;  // no longer needed
   kernels_.weigh(found, size, depth_weighting(result.scales), intensity_weighting(result.scales),
                  weights);

@@ -70,13 +70,14 @@ class Aligner {
 
   Residuals residuals(const Level& source, const Level& target, const Pose& target_from_source,
                       double intensity_offset);
-  ResidualScales scales(const Residuals& residuals, int size);
+  ResidualScales scales(const Residuals& residuals, int size, const ResidualScales& pixel_noise);
   Weighting depth_weighting(const ResidualScales& scales) const;
   Weighting intensity_weighting(const ResidualScales& scales) const;
   bool refine(const Level& camera, const Level& reference, int iterations, Estimate& estimate);
   ResidualScales pixel_noise(const Level& level);
   Matrix6d feigned_information(const Residuals& residuals, const Level& reference,
-                               const Level& camera, const ResidualScales& scales);
+                               const Level& camera, const ResidualScales& noise,
+                               const ResidualScales& scales) const;
   void weigh(const Level& camera, const Level& reference, AlignmentResult& result);
 
   AlignerOptions options_;

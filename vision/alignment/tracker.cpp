@@ -43,11 +43,11 @@ TrackedFrame Tracker::track(const FramePtr& frame, const ReferenceViewPtr& map_r
   if (own_.empty() && map_.empty()) {
     motion_.start(options_.start, frame->time);  // however long it took to see something
     tracked.world_from_camera = options_.start;
-    if (sees_anything(tracked.depth)) keep_as_reference(tracked);
+    if (sees_anything(tracked.depth)) keep_as_reference(tracked, nullptr);
     return tracked;
   }
   Attempt best = best_attempt(frame->time);
-  tracked.reference = best.reference;
+  tracked.reference = best.reference->frame;
   tracked.rms = verdict_.relative_rms(best.alignment);
   tracked.inliers = best.alignment.inliers;
   tracked.compared = best.alignment.compared;
@@ -60,7 +60,7 @@ TrackedFrame Tracker::track(const FramePtr& frame, const ReferenceViewPtr& map_r
     motion_.update(best.world_from_camera, frame->time);
     verdict_.learn(best.alignment);
     intensity_offset_ = best.alignment.intensity_offset;
-    keep_as_reference(tracked);
+    keep_as_reference(tracked, best.reference);
   } else {
     tracked.state = TrackingState::lost;
     tracked.world_from_camera = motion_.predicted(frame->time);
@@ -101,20 +101,22 @@ Tracker::Attempt Tracker::attempt(const Reference& reference, const Pose& start,
   out.alignment = aligner_.align(camera_, reference.pyramid,
                                  reference.world_from_camera.inverse() * start, intensity_offset_);
   out.world_from_camera = reference.world_from_camera * out.alignment.reference_from_camera;
-  out.reference = reference.frame;
+  out.reference = &reference;
   out.trusted = verdict_.trusts(out.alignment, camera_[0].width() * camera_[0].height()) &&
                 motion_.plausible(out.world_from_camera, time);
   return out;
 }
 
-void Tracker::keep_as_reference(const TrackedFrame& tracked) {
-  const bool still_good =
-      options_.own_reference == OwnReference::key_frame && !own_.empty() &&
-      tracked.inliers > options_.key_frame_inliers * static_cast<double>(tracked.weights.total());
-  if (still_good || tracked.depth.empty()) return;
+void Tracker::keep_as_reference(const TrackedFrame& tracked, const Reference* used) {
+  if (tracked.depth.empty()) return;
+  if (options_.own_reference == OwnReference::key_frame && used == &own_) {
+    if (own_.inliers_at_first == 0) own_.inliers_at_first = tracked.inliers;
+    if (tracked.inliers > options_.key_frame_inliers * own_.inliers_at_first) return;
+  }
   std::swap(own_.pyramid, camera_);
   own_.world_from_camera = tracked.world_from_camera;
   own_.frame = tracked.frame->index;
+  own_.inliers_at_first = 0;
 }
 
 }  // namespace armsreach

@@ -25,7 +25,9 @@ struct TrackerOptions {
   AlignerOptions aligner;
   int width = 80;  // of the finest level, pixels
   OwnReference own_reference = OwnReference::previous_frame;
-  double key_frame_inliers = 0.7;  // inliers per pixel below which a new key frame is taken
+  // A new key frame is taken when fewer inliers are left than this fraction of what the old one had
+  // at first.
+  double key_frame_inliers = 0.85;
   MotionOptions motion;
   Pose start;  // world_from_camera of the first frame
 };
@@ -44,12 +46,13 @@ class Tracker {
     Pyramid pyramid;
     Pose world_from_camera;
     std::int64_t frame = -1;
+    int inliers_at_first = 0;  // of the first frame that was aligned against it
     bool empty() const { return pyramid.size() == 0; }
   };
   struct Attempt {
     AlignmentResult alignment;
     Pose world_from_camera;
-    std::int64_t reference = -1;
+    const Reference* reference = nullptr;
     bool trusted = false;
   };
 
@@ -57,7 +60,8 @@ class Tracker {
   void take_map_reference(const ReferenceViewPtr& view);
   Attempt best_attempt(Timestamp time);
   Attempt attempt(const Reference& reference, const Pose& start, Timestamp time);
-  void keep_as_reference(const TrackedFrame& tracked);
+  // Takes the frame over as own reference, unless the key frame `used` is still good.
+  void keep_as_reference(const TrackedFrame& tracked, const Reference* used);
 
   TrackerOptions options_;
   Aligner aligner_;
