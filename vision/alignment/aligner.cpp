@@ -18,7 +18,7 @@ constexpr ResidualScales kLeastScales{3e-4, 2e-3};
 // Quantised depth may agree exactly on most pixels and differ by a whole step on the rest: the
 // scale is at least this times the camera's own noise, about what interpolation leaves of it.
 constexpr double kOfPixelNoise = 0.7;
-constexpr int kScaleSamples = 2048;  // residuals a median is taken of
+constexpr int kScaleSamples = 1024;  // residuals a median is taken of
 constexpr int kNoiseSamples = 256;   // pixels that stand for all where noise is assessed
 constexpr int kLeastResiduals = 64;
 constexpr double kConverged = 1e-3;  // pixels: a smaller step is the last

@@ -84,6 +84,7 @@ void depth_row(const float* depth, int step, int width, int factor, float* scrat
     Float count{};
     for (int row = 0; row < factor; ++row) {
       const Float d = lanes::load(depth + row * step + col);
+      __builtin_prefetch(depth + (row + factor) * step + col);  // of the next block row
       const Float same = d <= farthest ? d : Float{};
       sum = same > 0.0F ? sum + same : sum;
       count = same > 0.0F ? count + 1.0F : count;
