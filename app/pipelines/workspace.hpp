@@ -22,7 +22,6 @@ struct WorkspaceOptions {
   std::string trajectory;  // files to write, or ""
   std::string stats;
   std::string map;
-  bool progress = false;  // a line on the terminal once a second
 };
 
 // What a run came to, also written as JSON with `stats`.
