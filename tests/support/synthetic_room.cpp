@@ -68,9 +68,9 @@ FramePtr SyntheticRoom::frame(const std::shared_ptr<const SensorInfo>& sensor,
   return out;
 }
 
-std::shared_ptr<const SensorInfo> synthetic_sensor() {
+std::shared_ptr<const SensorInfo> synthetic_sensor(int width) {
   auto sensor = std::make_shared<SensorInfo>();
-  sensor->depth_camera = pinhole(640, 480, 525, 525, 319.5, 239.5);
+  sensor->depth_camera = resized(pinhole(640, 480, 525, 525, 319.5, 239.5), width, width * 3 / 4);
   sensor->color_camera = sensor->depth_camera;
   return sensor;
 }

@@ -32,7 +32,7 @@ struct SyntheticRoom {
                  std::int64_t index = 0) const;
 };
 
-// 640x480, 30 Hz, the focal length of a Kinect.
-std::shared_ptr<const SensorInfo> synthetic_sensor();
+// 4:3, 30 Hz, a Kinect's field of view.
+std::shared_ptr<const SensorInfo> synthetic_sensor(int width = 640);
 
 }  // namespace armsreach::test

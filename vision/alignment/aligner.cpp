@@ -15,8 +15,8 @@ constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 constexpr double kTukey = 4.685;  // cutoff in deviations; 95 % efficient on normal residuals
 // Quantisation alone leaves this much, so that exact images do not divide by zero.
 constexpr ResidualScales kLeastScales{3e-4, 2e-3};
-constexpr int kScaleSamples = 2048;   // residuals a median is taken of
-constexpr int kFeignedSamples = 256;  // pixels that stand for all where noise is assessed
+constexpr int kScaleSamples = 2048;  // residuals a median is taken of
+constexpr int kNoiseSamples = 256;   // pixels that stand for all where noise is assessed
 constexpr int kLeastResiduals = 64;
 constexpr double kConverged = 1e-3;  // pixels: a smaller step is the last
 
@@ -139,26 +139,51 @@ Weighting Aligner::intensity_weighting(const ResidualScales& scales) const {
           static_cast<float>(kTukey * scales.intensity)};
 }
 
-// Independent noise of deviation s in both images leaves about 0.75 s^2 of variance, by residual
-// variance s^2, in the mean of a central difference and an interpolated cell's derivative.
-Matrix6d Aligner::feigned_information(const Residuals& residuals, int size, double focal_length,
-                                      const ResidualScales& scales) const {
-  const int stride = size / kFeignedSamples | 1;
+// Of single pixels: the Laplacian vanishes on planes, and has 20 times a pixel's variance.
+ResidualScales Aligner::pixel_noise(const Level& level) {
+  const auto noise = [&](const std::vector<float>& plane) {
+    const int step = level.stride();
+    const int stride = size_of(level) / kNoiseSamples | 1;
+    laplacians_.clear();
+    for (int at = step; at < size_of(level) - step; at += stride) {
+      laplacians_.push_back(4 * plane[at] - plane[at - 1] - plane[at + 1] - plane[at - step] -
+                            plane[at + step]);
+    }
+    return robust_scale_(laplacians_, 1).scale / std::sqrt(20.0);
+  };
+  return {std::max(noise(level.inverse_depth), kLeastScales.depth / 10),
+          std::max(noise(level.intensity), kLeastScales.intensity / 10)};
+}
+
+// Noise of variance s^2 in the pixels of both images leaves about s^2 / 2 in the mean of a central
+// difference and an interpolated cell's derivative.
+Matrix6d Aligner::feigned_information(const Residuals& residuals, const Level& reference,
+                                      const Level& camera, const ResidualScales& scales) {
+  const int size = size_of(reference);
+  const int stride = size / kNoiseSamples | 1;
+  const ResidualScales noise = pixel_noise(camera);
+  const auto gain = [](double alpha, double noise_scale, double scale) {
+    const double ratio = std::min(1.0, noise_scale / scale);
+    return alpha * ratio * ratio;
+  };
+  const double depth_gain = gain(options_.alpha, noise.depth, scales.depth);
+  const double intensity_gain = gain(1 - options_.alpha, noise.intensity, scales.intensity);
   Matrix6d sum = Matrix6d::Zero();
   for (int at = 0; at < size; at += stride) {
-    double gain = 0;
-    if (std::abs(double{residuals.depth[at]}) < kTukey * scales.depth) gain += options_.alpha;
-    if (std::abs(double{residuals.intensity[at]}) < kTukey * scales.intensity)
-      gain += 1 - options_.alpha;
-    if (!(gain > 0)) continue;
+    const double depth = residuals.depth[at];
+    const double intensity = residuals.intensity[at];
+    const double both = (std::abs(depth) < kTukey * scales.depth ? depth_gain : 0) +
+                        (std::abs(intensity) < kTukey * scales.intensity ? intensity_gain : 0);
+    if (!(both > 0)) continue;
     const double x = residuals.X[at];
     const double y = residuals.Y[at];
     const double rho = residuals.inverse_z[at];
     Eigen::Matrix<double, 6, 2> by_gradient;  // x and y
     by_gradient << rho, 0, 0, rho, -rho * x, -rho * y, -x * y, -1 - y * y, 1 + x * x, x * y, -y, x;
-    sum += gain * by_gradient * by_gradient.transpose();
+    sum += both * by_gradient * by_gradient.transpose();
   }
-  return 0.75 * stride * focal_length * focal_length * sum;
+  const double focal_length = camera.camera().fx;
+  return 0.5 * stride * focal_length * focal_length * sum;
 }
 
 bool Aligner::refine(const Level& camera, const Level& reference, int iterations,
@@ -179,7 +204,7 @@ bool Aligner::refine(const Level& camera, const Level& reference, int iterations
     estimate.information = step.information;
     const bool last = i + 1 == iterations || step.motion.lpNorm<Eigen::Infinity>() < converged;
     if (!last) continue;
-    estimate.feigned_information = feigned_information(found, size, camera.camera().fx, spread);
+    estimate.feigned_information = feigned_information(found, reference, camera, spread);
     break;
   }
   return estimate.camera_from_reference.is_finite();

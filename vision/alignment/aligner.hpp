@@ -74,14 +74,16 @@ class Aligner {
   Weighting depth_weighting(const ResidualScales& scales) const;
   Weighting intensity_weighting(const ResidualScales& scales) const;
   bool refine(const Level& camera, const Level& reference, int iterations, Estimate& estimate);
-  Matrix6d feigned_information(const Residuals& residuals, int size, double focal_length,
-                               const ResidualScales& scales) const;
+  ResidualScales pixel_noise(const Level& level);
+  Matrix6d feigned_information(const Residuals& residuals, const Level& reference,
+                               const Level& camera, const ResidualScales& scales);
   void weigh(const Level& camera, const Level& reference, AlignmentResult& result);
 
   AlignerOptions options_;
   AlignKernels kernels_;
   RobustScale robust_scale_;
   std::vector<float> planes_;  // of the residuals
+  std::vector<float> laplacians_;
 };
 
 }  // namespace armsreach

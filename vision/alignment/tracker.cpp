@@ -22,7 +22,10 @@ Tracker::Tracker(TrackerOptions options)
       verdict_(options_.aligner.alpha) {}
 
 TrackedFrame Tracker::reduced(const FramePtr& frame) {
-  if (!reducer_) reducer_.emplace(frame->sensor, options_.width);
+  if (!reducer_) {
+    reducer_.emplace(frame->sensor, options_.width);
+    motion_.start(options_.start, frame->time);
+  }
   ReducedFrame images = reducer_->reduce(*frame);
   TrackedFrame tracked;
   tracked.frame = frame;
@@ -38,7 +41,7 @@ TrackedFrame Tracker::track(const FramePtr& frame, const ReferenceViewPtr& map_r
   TrackedFrame tracked = reduced(frame);
   take_map_reference(map_reference);
   if (own_.empty() && map_.empty()) {
-    motion_.start(options_.start, frame->time);
+    motion_.start(options_.start, frame->time);  // however long it took to see something
     tracked.world_from_camera = options_.start;
     if (sees_anything(tracked.depth)) keep_as_reference(tracked);
     return tracked;

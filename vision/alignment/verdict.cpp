@@ -14,34 +14,31 @@ constexpr double kSurprise = 4;         // times the usual residual
 constexpr ResidualScales kAlwaysFine{1e-3, 4e-3};
 constexpr ResidualScales kNeverFine{5e-2, 0.3};
 constexpr int kMemory = 30;  // frames over which the usual residuals are averaged
-// Information beside what noise feigns. A blank wall seen by a noisy sensor has 0.2 to 0.5, rooms
-// have 7 to 150 with depth and from 2 with intensity alone.
-constexpr double kLeastObservability = 1.5;
+// Information beside what noise feigns: 0.5 to 1 on blank walls, from 4 in rooms.
+constexpr double kLeastObservability = 2;
 
-double surprise(double scale, double usual, double always_fine) {
-  return scale / std::max(usual, always_fine);
+// Of both residuals, each beside `level`.
+double rms(const ResidualScales& scales, const ResidualScales& level, double alpha) {
+  const double depth = scales.depth / level.depth;
+  const double intensity = scales.intensity / level.intensity;
+  return std::sqrt(alpha * depth * depth + (1 - alpha) * intensity * intensity);
 }
 
 }  // namespace
 
 bool Verdict::trusts(const AlignmentResult& alignment, int pixels) const {
-  if (!alignment.ok || alignment.compared < kLeastCompared * pixels ||
-      alignment.inliers < kLeastInliers * alignment.compared) {
-    return false;
-  }
-  if (alignment.scales.depth > kNeverFine.depth ||
-      alignment.scales.intensity > kNeverFine.intensity) {
-    return false;
-  }
-  return alignment.observability > kLeastObservability &&
-         (learnt_ == 0 || relative_rms(alignment) <= kSurprise);
+  const ResidualScales& scales = alignment.scales;
+  const ResidualScales suspicious{kSurprise * std::max(usual_.depth, kAlwaysFine.depth),
+                                  kSurprise * std::max(usual_.intensity, kAlwaysFine.intensity)};
+  return alignment.ok && alignment.compared >= kLeastCompared * pixels &&
+         alignment.inliers >= kLeastInliers * alignment.compared &&
+         alignment.observability > kLeastObservability && scales.depth < kNeverFine.depth &&
+         scales.intensity < kNeverFine.intensity &&
+         (learnt_ == 0 || rms(scales, suspicious, alpha_) <= 1);
 }
 
 double Verdict::relative_rms(const AlignmentResult& alignment) const {
-  const double depth = surprise(alignment.scales.depth, usual_.depth, kAlwaysFine.depth);
-  const double intensity =
-      surprise(alignment.scales.intensity, usual_.intensity, kAlwaysFine.intensity);
-  return std::sqrt(alpha_ * depth * depth + (1 - alpha_) * intensity * intensity);
+  return alignment.ok ? rms(alignment.scales, learnt_ > 0 ? usual_ : alignment.scales, alpha_) : 0;
 }
 
 void Verdict::learn(const AlignmentResult& alignment) {
