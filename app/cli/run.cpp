@@ -99,9 +99,8 @@ Status check_meshes(const Config& config, const std::string& where) {
 void print_summary(const RunSummary& s) {
   std::printf(
       "%lld frames in %.1f s (%.1f Hz), %lld tracked; frame to overlay %.0f ms, p95 %.0f ms\n",
-      static_cast<long long>(s.frames), s.seconds,
-      s.seconds > 0 ? static_cast<double>(s.frames) / s.seconds : 0,
-      static_cast<long long>(s.tracked_frames), 1e3 * s.latency_p50, 1e3 * s.latency_p95);
+      static_cast<long long>(s.frames), s.seconds, s.rate, static_cast<long long>(s.tracked_frames),
+      1e3 * s.latency_p50, 1e3 * s.latency_p95);
 }
 
 }  // namespace

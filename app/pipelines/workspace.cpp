@@ -215,6 +215,7 @@ RunSummary Workspace::summary(double seconds) {
   result.frames = journal_.frames();
   result.tracked_frames = journal_.tracked_frames();
   result.seconds = seconds;
+  result.rate = journal_.rate();
   result.latency_p50 = drawing_->latency().percentile(0.5);
   result.latency_p95 = drawing_->latency().percentile(0.95);
   return result;
@@ -232,17 +233,16 @@ Status Workspace::write_stats(const RunSummary& result) {
         {"p99", s.processing.percentile(0.99)}};
   }
   const LatencyHistogram& latency = drawing_->latency();
-  const nlohmann::json stats = {
-      {"frames", result.frames},
-      {"tracked_frames", result.tracked_frames},
-      {"seconds", result.seconds},
-      {"rate", result.seconds > 0 ? static_cast<double>(result.frames) / result.seconds : 0},
-      {"latency",
-       {{"p50", latency.percentile(0.5)},
-        {"p95", latency.percentile(0.95)},
-        {"p99", latency.percentile(0.99)}}},
-      {"peak_memory_mb", peak_memory_mb()},
-      {"stages", stages}};
+  const nlohmann::json stats = {{"frames", result.frames},
+                                {"tracked_frames", result.tracked_frames},
+                                {"seconds", result.seconds},
+                                {"rate", result.rate},
+                                {"latency",
+                                 {{"p50", latency.percentile(0.5)},
+                                  {"p95", latency.percentile(0.95)},
+                                  {"p99", latency.percentile(0.99)}}},
+                                {"peak_memory_mb", peak_memory_mb()},
+                                {"stages", stages}};
   return write_file(options_.stats, [&](std::ostream& out) { out << stats.dump(2) << "\n"; });
 }
 

@@ -28,7 +28,8 @@ struct WorkspaceOptions {
 struct RunSummary {
   std::int64_t frames = 0;          // that came out of the tracker
   std::int64_t tracked_frames = 0;  // with a pose that can be trusted
-  double seconds = 0;               // wall time
+  double seconds = 0;               // wall time, with opening and finishing
+  double rate = 0;                  // Hz, while frames came
   double latency_p50 = 0;           // s, from frame read to overlay drawn
   double latency_p95 = 0;
 };
