@@ -34,6 +34,7 @@ int main(int argc, char** argv) {
   cv::setNumThreads(1);  // our stages are the threads; and results must not depend on scheduling
   CLI::App app("Hand-reach augmented reality on ordinary cameras.", "armsreach");
   app.require_subcommand(1);
+  app.set_version_flag("--version", ARMSREACH_VERSION);
   app.set_help_all_flag("--help-all", "help of every verb");
   armsreach::app::Task task;
   armsreach::app::add_run_command(app, &task);

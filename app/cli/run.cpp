@@ -1,7 +1,11 @@
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "app/cli/run_options.hpp"
 #include "app/cli/source_kinds.hpp"
@@ -19,14 +23,18 @@ constexpr int kOperatorHeight = 720;
 Result<Config> read_config_file(const std::string& path) {
   if (path.empty()) return Config{};
   std::ifstream in(path);
-  if (!in) return Error{"cannot be opened", path, "check the path given to --config"};
+  if (!in || std::filesystem::is_directory(path)) {
+    return Error{"cannot be opened", path, "check the path given to --config"};
+  }
   return read_config(in, path);
 }
 
 Result<std::optional<CameraFile>> read_camera_file(const std::string& path) {
   if (path.empty()) return std::optional<CameraFile>();
   std::ifstream in(path);
-  if (!in) return Error{"cannot be opened", path, "check the path given to --camera"};
+  if (!in || std::filesystem::is_directory(path)) {
+    return Error{"cannot be opened", path, "check the path given to --camera"};
+  }
   auto file = read_camera_yaml(in, path);
   if (!file) return file.error();
   return std::optional<CameraFile>(*file);
@@ -39,6 +47,11 @@ Result<std::unique_ptr<Rig>> open_rig(const RunOptions& options) {
   }
   auto spec = options.rig.empty() ? rig_from_specs(options.sources) : read_rig_file(options.rig);
   if (!spec) return spec.error();
+  for (RigSensorSpec& sensor : spec->sensors) {
+    if (sensor.source.kind == "sim" && !option(sensor.source, "seed")) {
+      sensor.source.options.emplace_back("seed", std::to_string(options.seed));
+    }
+  }
   auto camera = read_camera_file(options.camera);
   if (!camera) return camera.error();
   return armsreach::open_rig(*spec, *camera, all_source_kinds());
@@ -72,12 +85,22 @@ PresenterOptions presenter_options(const RunOptions& options, const Config& conf
   return out;
 }
 
+Status check_meshes(const Config& config, const std::string& where) {
+  const std::vector<std::string>& known = render::mesh_names();
+  for (const Action& action : config.actions) {
+    if (action.insert.empty() || std::count(known.begin(), known.end(), action.insert)) continue;
+    std::string names;
+    for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
+    return Error{"no mesh is called '" + action.insert + "'", where, "insert one of: " + names};
+  }
+  return ok();
+}
+
 void print_summary(const RunSummary& s) {
   std::printf(
       "%lld frames in %.1f s (%.1f Hz), %lld tracked; frame to overlay %.0f ms, p95 %.0f ms\n",
-      static_cast<long long>(s.frames), s.seconds,
-      s.seconds > 0 ? static_cast<double>(s.frames) / s.seconds : 0,
-      static_cast<long long>(s.tracked_frames), 1e3 * s.latency_p50, 1e3 * s.latency_p95);
+      static_cast<long long>(s.frames), s.seconds, s.rate, static_cast<long long>(s.tracked_frames),
+      1e3 * s.latency_p50, 1e3 * s.latency_p95);
 }
 
 }  // namespace
@@ -94,6 +117,11 @@ Status run(const RunOptions& options, const Config& config) {
     return Error{"threads: false is for --pace every-frame", options.config,
                  "remove it, or add --pace every-frame"};
   }
+  if (!options.map.empty() && !config.mapping.enabled) {
+    return Error{"--map needs mapping, which the configuration switches off", options.config,
+                 "remove --map or mapping: {enabled: false}"};
+  }
+  if (auto status = check_meshes(config, options.config); !status) return status;
   auto rig = open_rig(options);
   if (!rig) return rig.error();
   const SensorInfo& sensor = main_sensor(**rig);
@@ -111,8 +139,9 @@ Status run(const RunOptions& options, const Config& config) {
   workspace.stats = options.stats;
   workspace.map = options.map;
   auto summary = run_workspace(**rig, **presenter, log, config, workspace);
-  if (auto status = log.close(); !status) return status;
+  const Status logged = log.close();
   if (!summary) return summary.error();
+  if (!logged) return logged;
   print_summary(*summary);
   return ok();
 }

@@ -13,6 +13,7 @@ namespace {
 constexpr float kTrailStep = 0.01F;                // m between kept points of the camera's trail
 constexpr Timestamp kMessageTime = 4'000'000'000;  // ns that a message is shown
 constexpr size_t kLongestTrail = 4000;             // points
+constexpr size_t kEventsKept = 64;      // more than a person can cause while scenes are skipped
 constexpr int kOcclusionReduction = 2;  // depth is compared at half the video's resolution
 
 // A camera without colour still shows something: its depth, near bright, 4 m dark.
@@ -40,17 +41,26 @@ struct BodyToText {
 
 }  // namespace
 
+void UserInput::add(const UserInput& more) {
+  clicks.insert(clicks.end(), more.clicks.begin(), more.clicks.end());
+  faults.insert(faults.end(), more.faults.begin(), more.faults.end());
+  delete_selected |= more.delete_selected;
+}
+
 Composer::Composer(const EventLog& log, StageRows stage_rows, Latency latency)
     : log_(log), stage_rows_(std::move(stage_rows)), latency_(std::move(latency)) {}
 
 ComposedPtr Composer::process(const ComposeInput& input) {
+  for (const UserInput& user : input.user) pending_.add(user);
   if (!input.tracked) return nullptr;  // the tracker failed on this frame and has said so
   const TrackedFrame& tracked = *input.tracked;
   const WorldView* world = input.map ? input.map->view.get() : nullptr;
 
   auto composed = std::make_shared<Composed>();
   composed->arrival = tracked.frame->arrival;
-  composed->events = apply(input.user, world, tracked);
+  apply(std::exchange(pending_, {}), world, tracked);
+  composed->events = events_;
+  composed->events_before = events_told_ - static_cast<std::int64_t>(events_.size());
 
   auto scene = std::make_shared<render::Scene>();
   add_video(tracked, scene.get());
@@ -123,22 +133,21 @@ void Composer::add_messages(Timestamp now, render::Scene* scene) {
   }
 }
 
-Events Composer::apply(const std::vector<UserInput>& user, const WorldView* world,
-                       const TrackedFrame& tracked) {
-  Events events;
-  const auto add = [&](Events more) {
-    events.insert(events.end(), std::make_move_iterator(more.begin()),
-                  std::make_move_iterator(more.end()));
-  };
+void Composer::apply(const UserInput& user, const WorldView* world, const TrackedFrame& tracked) {
   const Timestamp time = tracked.frame->time;
-  for (const UserInput& input : user) {
-    for (const FaultEvent& fault : input.faults) events.push_back({time, fault});
-    for (const Click& click : input.clicks) {
-      add(placement_.click(click, world, tracked.world_from_camera.translation(), time));
-    }
-    if (input.delete_selected) add(placement_.remove_selected(world, time));
+  const Eigen::Vector3d& viewer = tracked.world_from_camera.translation();
+  for (const FaultEvent& fault : user.faults) tell({time, fault});
+  for (const Click& click : user.clicks) {
+    for (Event& event : placement_.click(click, world, viewer, time)) tell(std::move(event));
   }
-  return events;
+  if (!user.delete_selected) return;
+  for (Event& event : placement_.remove_selected(world, time)) tell(std::move(event));
+}
+
+void Composer::tell(Event event) {
+  events_.push_back(std::move(event));
+  ++events_told_;
+  if (events_.size() > kEventsKept) events_.erase(events_.begin());
 }
 
 void Composer::measure_rate(std::int64_t arrival) {

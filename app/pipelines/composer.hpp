@@ -23,7 +23,7 @@ struct UserInput {
   bool delete_selected = false;
   std::vector<FaultEvent> faults;  // what could not be done
 
-  bool asks() const { return !clicks.empty() || delete_selected || !faults.empty(); }
+  void add(const UserInput& more);
 };
 
 struct ComposeInput {
@@ -34,7 +34,10 @@ struct ComposeInput {
 
 struct Composed {
   render::ScenePtr scene;
+  // The newest events, also those of earlier scenes, in case one was skipped: the first is number
+  // `events_before` of the run.
   Events events;
+  std::int64_t events_before = 0;
   std::int64_t arrival = 0;  // of the frame, steady-clock ns
 };
 using ComposedPtr = std::shared_ptr<const Composed>;
@@ -53,14 +56,17 @@ class Composer final : public Stage<ComposeInput, ComposedPtr> {
   void add_tracking(const TrackedFrame& tracked, render::Scene* scene);
   void add_objects(const WorldView* world, render::Scene* scene);
   void add_messages(Timestamp now, render::Scene* scene);
-  Events apply(const std::vector<UserInput>& user, const WorldView* world,
-               const TrackedFrame& tracked);
+  void apply(const UserInput& user, const WorldView* world, const TrackedFrame& tracked);
+  void tell(Event event);
   void measure_rate(std::int64_t arrival);
 
   const EventLog& log_;
   StageRows stage_rows_;
   Latency latency_;
   Placement placement_;
+  UserInput pending_;  // done on frames whose tracking failed
+  Events events_;      // the newest
+  std::int64_t events_told_ = 0;
   std::vector<Eigen::Vector3f> camera_trail_;
   std::int64_t last_arrival_ = 0;
   double frame_rate_ = 0;

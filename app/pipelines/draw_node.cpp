@@ -8,9 +8,8 @@ namespace armsreach::app {
 DrawNode::DrawNode(Presenter& presenter, Journal& journal, EventLog& log, Connections connections,
                    std::function<void()> stop_sources)
     : Node("drawing",
-           [this, &log](const std::string& stage, const std::string& what) {
+           [&log](const std::string& stage, const std::string& what) {
              log.write({log.now(), FaultEvent{stage, what, "see 'Displays' in the README"}});
-             fail({what, stage, "", Error::Kind::device});
            }),
       presenter_(presenter),
       journal_(journal),
@@ -32,14 +31,14 @@ bool DrawNode::turn() {
     return false;
   }
   if (next.fresh && next.scene) shown_ = next.scene;
-  UserInput user;
+  if (next.fresh && next.scene) write_events(*next.scene);
   if (presenter_.should_close()) {
     stop_sources_();
   } else if (shown_) {
-    user = draw(*shown_, next.fresh && next.scene);
+    draw(*shown_, next.fresh && next.scene);
   }
-  // The composer waits for one answer to each of its scenes.
-  if (next.fresh || user.asks()) connections_.user->push(std::move(user));
+  // The composer gets one answer to each of its scenes, no more and no less.
+  if (next.fresh) connections_.user->push(std::exchange(user_, {}));
   return true;
 }
 
@@ -50,20 +49,30 @@ DrawNode::Next DrawNode::next_scene() {
     auto scene = connections_.scenes->pop();
     return scene ? Next{*scene, true, false} : Next{nullptr, false, true};
   }
-  presenter_.wait();
-  if (auto scene = connections_.scenes->try_pop()) return {*scene, true, false};
-  return {nullptr, false, connections_.scenes->finished()};
+  // Looked for before waiting: one waking may stand for several scenes.
+  for (const bool wait : {false, true}) {
+    if (wait) presenter_.wait();
+    if (auto scene = connections_.scenes->try_pop()) return {*scene, true, false};
+    if (connections_.scenes->finished()) return {nullptr, false, true};
+  }
+  return {nullptr, false, false};
 }
 
-UserInput DrawNode::draw(const Composed& composed, bool fresh) {
-  if (fresh) {
-    for (const Event& event : composed.events) log_.write(event);
+// Scenes may have been skipped, their events are not.
+void DrawNode::write_events(const Composed& composed) {
+  std::int64_t number = composed.events_before;
+  for (const Event& event : composed.events) {
+    if (number++ < events_written_) continue;
+    log_.write(event);
+    events_written_ = number;
   }
-  UserInput user;
+}
+
+void DrawNode::draw(const Composed& composed, bool fresh) {
   guarded([&] {
     Result<UserInput> presented = presenter_.present(*composed.scene);
     if (presented) {
-      user = *std::move(presented);
+      user_.add(*std::move(presented));
     } else {
       fail(presented.error());
     }
@@ -72,7 +81,6 @@ UserInput DrawNode::draw(const Composed& composed, bool fresh) {
     const std::int64_t now = std::chrono::steady_clock::now().time_since_epoch().count();
     latency_.record(1e-9 * static_cast<double>(now - composed.arrival));
   }
-  return user;
 }
 
 void DrawNode::finish() {

@@ -38,7 +38,8 @@ class DrawNode final : public Node {
     bool ended = false;
   };
   Next next_scene();
-  UserInput draw(const Composed& composed, bool fresh);
+  void write_events(const Composed& composed);
+  void draw(const Composed& composed, bool fresh);
   void finish();
   void fail(const Error& error);
 
@@ -48,6 +49,8 @@ class DrawNode final : public Node {
   Connections connections_;
   std::function<void()> stop_sources_;
   ComposedPtr shown_;
+  UserInput user_;  // what was done since the last answer to the composer
+  std::int64_t events_written_ = 0;
   LatencyHistogram latency_;
   std::optional<Error> failure_;
 };

@@ -4,8 +4,14 @@
 
 namespace armsreach::app {
 
+double Journal::rate() const {
+  const double seconds = 1e-9 * static_cast<double>(last_arrival_ - first_arrival_);
+  return seconds > 0 ? static_cast<double>(frames_ - 1) / seconds : 0;
+}
+
 void Journal::record(const TrackedFrame& tracked) {
-  ++frames_;
+  if (frames_++ == 0) first_arrival_ = tracked.frame->arrival;
+  last_arrival_ = tracked.frame->arrival;
   if (trusted(tracked)) {
     ++tracked_frames_;
     if (file_.is_open())

@@ -20,6 +20,8 @@ class Journal {
   void record(const TrackedFrame& tracked);
   Status close() { return file_.close(); }
 
+  // Frames a second between the arrivals of the first and the last; 0 with fewer than two.
+  double rate() const;
   std::int64_t frames() const { return frames_; }
   std::int64_t tracked_frames() const { return tracked_frames_; }
 
@@ -27,6 +29,8 @@ class Journal {
   EventLog& log_;
   OutputFile file_;
   std::optional<TrackingState> state_;
+  std::int64_t first_arrival_ = 0;
+  std::int64_t last_arrival_ = 0;
   std::int64_t frames_ = 0;
   std::int64_t tracked_frames_ = 0;
 };

@@ -162,12 +162,14 @@ Status Presenter::save_screenshot(std::int64_t frame) {
 }
 
 Status Presenter::close() {
+  Status screenshot = ok();
   if (!options_.screenshots.empty() && last_drawn_ >= 0 && last_drawn_ != last_saved_) {
-    if (auto status = save_screenshot(last_drawn_); !status) return status;
+    screenshot = save_screenshot(last_drawn_);
   }
-  if (!recorder_) return ok();
-  auto film = recorder_->close();
-  return film ? ok() : Status(film.error());
+  if (recorder_) {
+    if (auto film = recorder_->close(); !film) return film.error();
+  }
+  return screenshot;
 }
 
 bool Presenter::interactive() const {

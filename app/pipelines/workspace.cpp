@@ -49,6 +49,7 @@ class Workspace {
   std::int64_t drops(const Node& node) const;
   RunSummary summary(double seconds);
   Status write_stats(const RunSummary& summary);
+  Status save_map();
   Status first_failure();
 
   const Config& config_;
@@ -84,6 +85,7 @@ Workspace::Workspace(Rig& rig, Presenter& presenter, EventLog& log, const Config
       to_journal_(wiring_.queue<TrackedFramePtr>(kJournalLength)),
       capture_(rig, {options.sensor, options.pace, options.frames}, log) {
   capture_.outlet().connect(frames_);
+  capture_.at_end([this] { frames_->close(); });
   join_tracking();
   if (config_.mapping.enabled) join_mapping();
   join_composing();
@@ -101,6 +103,11 @@ void Workspace::join_tracking() {
       fault_handler());
   tracking_->outlet().connect(to_journal_);
   tracking_->outlet().connect(to_compose_);
+  tracking_->at_end([this] {
+    frames_->close();
+    map_for_tracking_.connection()->close();
+    for (const auto& out : {to_journal_, to_map_, to_compose_}) out->close();
+  });
 }
 
 void Workspace::join_mapping() {
@@ -111,6 +118,11 @@ void Workspace::join_mapping() {
   tracking_->outlet().connect(to_map_);
   mapping_->outlet().connect(map_for_tracking_.connection());
   mapping_->outlet().connect(map_for_composing_.connection());
+  mapping_->at_end([this] {
+    to_map_->close();
+    map_for_tracking_.connection()->close();
+    map_for_composing_.connection()->close();
+  });
 }
 
 void Workspace::join_composing() {
@@ -125,12 +137,24 @@ void Workspace::join_composing() {
       },
       fault_handler());
   composing_->outlet().connect(scenes_);
+  composing_->at_end([this] {
+    to_compose_->close();
+    map_for_composing_.connection()->close();
+    user_.connection()->close();
+    scenes_->close();
+  });
 }
 
 void Workspace::join_drawing(Presenter& presenter) {
   drawing_ = std::make_unique<DrawNode>(
       presenter, journal_, log_, DrawNode::Connections{scenes_, to_journal_, user_.connection()},
       [this] { capture_.stop(); });
+  drawing_->at_end([this] {
+    scenes_->close();
+    to_journal_->close();
+    user_.connection()->close();
+    capture_.stop();
+  });
 }
 
 FaultHandler Workspace::fault_handler() {
@@ -174,13 +198,16 @@ Result<RunSummary> Workspace::run() {
   }
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
   const RunSummary result = summary(spent.count());
-  if (auto status = journal_.close(); !status) return status.error();
-  if (auto status = write_stats(result); !status) return status.error();
-  if (!options_.map.empty() && mapping_stage_) {
-    if (auto status = mapping_stage_->save(options_.map); !status) return status.error();
+  // Every output is finished whatever became of the others; the first complaint is the answer.
+  for (const Status& status :
+       {first_failure(), journal_.close(), write_stats(result), save_map()}) {
+    if (!status) return status.error();
   }
-  if (auto status = first_failure(); !status) return status.error();
   return result;
+}
+
+Status Workspace::save_map() {
+  return options_.map.empty() || !mapping_stage_ ? ok() : mapping_stage_->save(options_.map);
 }
 
 RunSummary Workspace::summary(double seconds) {
@@ -188,6 +215,7 @@ RunSummary Workspace::summary(double seconds) {
   result.frames = journal_.frames();
   result.tracked_frames = journal_.tracked_frames();
   result.seconds = seconds;
+  result.rate = journal_.rate();
   result.latency_p50 = drawing_->latency().percentile(0.5);
   result.latency_p95 = drawing_->latency().percentile(0.95);
   return result;
@@ -205,17 +233,16 @@ Status Workspace::write_stats(const RunSummary& result) {
         {"p99", s.processing.percentile(0.99)}};
   }
   const LatencyHistogram& latency = drawing_->latency();
-  const nlohmann::json stats = {
-      {"frames", result.frames},
-      {"tracked_frames", result.tracked_frames},
-      {"seconds", result.seconds},
-      {"rate", result.seconds > 0 ? static_cast<double>(result.frames) / result.seconds : 0},
-      {"latency",
-       {{"p50", latency.percentile(0.5)},
-        {"p95", latency.percentile(0.95)},
-        {"p99", latency.percentile(0.99)}}},
-      {"peak_memory_mb", peak_memory_mb()},
-      {"stages", stages}};
+  const nlohmann::json stats = {{"frames", result.frames},
+                                {"tracked_frames", result.tracked_frames},
+                                {"seconds", result.seconds},
+                                {"rate", result.rate},
+                                {"latency",
+                                 {{"p50", latency.percentile(0.5)},
+                                  {"p95", latency.percentile(0.95)},
+                                  {"p99", latency.percentile(0.99)}}},
+                                {"peak_memory_mb", peak_memory_mb()},
+                                {"stages", stages}};
   return write_file(options_.stats, [&](std::ostream& out) { out << stats.dump(2) << "\n"; });
 }
 

@@ -22,14 +22,14 @@ struct WorkspaceOptions {
   std::string trajectory;  // files to write, or ""
   std::string stats;
   std::string map;
-  bool progress = false;  // a line on the terminal once a second
 };
 
 // What a run came to, also written as JSON with `stats`.
 struct RunSummary {
   std::int64_t frames = 0;          // that came out of the tracker
   std::int64_t tracked_frames = 0;  // with a pose that can be trusted
-  double seconds = 0;               // wall time
+  double seconds = 0;               // wall time, with opening and finishing
+  double rate = 0;                  // Hz, while frames came
   double latency_p50 = 0;           // s, from frame read to overlay drawn
   double latency_p95 = 0;
 };

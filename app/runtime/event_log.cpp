@@ -5,7 +5,8 @@
 namespace armsreach::app {
 
 void EventLog::write(const Event& event) {
-  const std::string line = json_from_event(event).dump();
+  const std::string line =
+      json_from_event(event).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   const std::lock_guard lock(mutex_);
   recent_.push_back(event);
   if (recent_.size() > kRecent) recent_.pop_front();

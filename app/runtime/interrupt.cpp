@@ -1,11 +1,10 @@
 #include "app/runtime/interrupt.hpp"
 
-#include <array>
+#include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <cstdint>
-#include <poll.h>
 #include <sys/eventfd.h>
-#include <sys/signalfd.h>
 #include <unistd.h>
 #include <utility>
 
@@ -13,47 +12,56 @@ namespace armsreach::app {
 namespace {
 
 constexpr int kExitAfterSecondSignal = 130;
+constexpr std::uint64_t kInterrupted = 1;
+constexpr std::uint64_t kDone = std::uint64_t{1} << 32;
 
-sigset_t interrupts() {
-  sigset_t set;
-  sigemptyset(&set);
-  sigaddset(&set, SIGINT);
-  sigaddset(&set, SIGTERM);
-  return set;
+// All that a handler may touch: any thread, even a library's, may be the one that is interrupted.
+std::atomic<int> event_file{-1};
+std::atomic<int> interrupts{0};
+
+void add(std::uint64_t what) {
+  [[maybe_unused]] const ssize_t written = write(event_file.load(), &what, sizeof what);
 }
 
-void watch(int signals, int done, const std::function<void()>& on_interrupt) {
-  std::array<pollfd, 2> files = {pollfd{signals, POLLIN, 0}, pollfd{done, POLLIN, 0}};
-  for (int count = 0;;) {
-    if (poll(files.data(), files.size(), -1) < 0) continue;  // interrupted by another signal
-    if (files[1].revents) return;
-    signalfd_siginfo info;
-    if (read(signals, &info, sizeof info) != sizeof info) return;
-    if (++count > 1) _exit(kExitAfterSecondSignal);
-    on_interrupt();
+void on_signal(int) {
+  if (interrupts.fetch_add(1) > 0) _exit(kExitAfterSecondSignal);
+  const int saved = errno;
+  add(kInterrupted);
+  errno = saved;
+}
+
+void watch(const std::function<void()>& on_interrupt) {
+  for (;;) {
+    std::uint64_t sum = 0;
+    if (read(event_file.load(), &sum, sizeof sum) != sizeof sum) {
+      if (errno == EINTR) continue;
+      return;
+    }
+    if (sum % kDone > 0) on_interrupt();
+    if (sum >= kDone) return;
   }
 }
 
 }  // namespace
 
 InterruptGuard::InterruptGuard(std::function<void()> on_interrupt) {
-  const sigset_t set = interrupts();
-  pthread_sigmask(SIG_BLOCK, &set, nullptr);
-  signals_ = signalfd(-1, &set, SFD_CLOEXEC);
-  done_ = eventfd(0, EFD_CLOEXEC);
-  thread_ = std::jthread([signals = signals_, done = done_, handler = std::move(on_interrupt)] {
-    watch(signals, done, handler);
-  });
+  interrupts = 0;
+  event_file = eventfd(0, EFD_CLOEXEC);
+  thread_ = std::jthread([handler = std::move(on_interrupt)] { watch(handler); });
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGINT, &action, &old_interrupt_);
+  sigaction(SIGTERM, &action, &old_terminate_);
 }
 
 InterruptGuard::~InterruptGuard() {
-  const std::uint64_t one = 1;
-  if (write(done_, &one, sizeof one) != sizeof one) _exit(kExitAfterSecondSignal);
+  sigaction(SIGINT, &old_interrupt_, nullptr);
+  sigaction(SIGTERM, &old_terminate_, nullptr);
+  add(kDone);
   thread_.join();
-  close(signals_);
-  close(done_);
-  const sigset_t set = interrupts();
-  pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+  close(event_file.exchange(-1));
 }
 
 }  // namespace armsreach::app

@@ -38,6 +38,18 @@ class Node {
   // Takes one input, waiting for it, and gives one output. False at the end, with outputs closed.
   virtual bool turn() = 0;
 
+  // What to do when the node has ended, however it did: closing its connections, so that nobody
+  // waits for it.
+  void at_end(std::function<void()> end) { end_ = std::move(end); }
+  void end() {
+    if (end_) end_();
+  }
+  // Tells of an exception; of one that repeats only once.
+  void report(const std::string& what) {
+    statistics_.faults.fetch_add(1);
+    if (std::exchange(last_fault_, what) != what) fault_(name_, what);
+  }
+
   const std::string& name() const { return name_; }
   StageStatistics& statistics() { return statistics_; }
 
@@ -51,8 +63,7 @@ class Node {
       step();
     } catch (const std::exception& e) {
       good = false;
-      statistics_.faults.fetch_add(1);
-      fault_(name_, e.what());
+      report(e.what());
     }
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     statistics_.processing.record(spent.count());
@@ -63,6 +74,8 @@ class Node {
  private:
   std::string name_;
   FaultHandler fault_;
+  std::function<void()> end_;
+  std::string last_fault_;
   StageStatistics statistics_;
 };
 

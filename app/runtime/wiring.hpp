@@ -38,7 +38,8 @@ struct Wiring {
 };
 
 // An input that goes along with the one that drives a stage: live, whatever is newest; lock-step,
-// exactly the value that belongs to the frame `lag` frames earlier (T{} for the first ones).
+// exactly the value that belongs to the frame `lag` frames earlier (T{} for the first ones). A T{}
+// from a stage that failed leaves the value before it.
 template <class T>
 class Following {
  public:
@@ -55,7 +56,7 @@ class Following {
 
   const T& take() {
     auto value = live_ ? connection_->try_pop() : connection_->pop();
-    if (value) last_ = std::move(*value);
+    if (value && *value != T{}) last_ = std::move(*value);
     return last_;
   }
 

@@ -43,6 +43,8 @@ class Section {
     return {node, path_ + list + "[" + std::to_string(index) + "].", error_, where_};
   }
 
+  const std::string& path() const { return path_; }
+
   // To be called after the last read.
   void refuse_unknown() {
     if (!node_.IsMap()) return;
@@ -73,7 +75,7 @@ void read_pair(Section& section, const std::string& key, double* first, double* 
   if (!node.IsSequence() || node.size() != 2 || !YAML::convert<double>::decode(node[0], *first) ||
       !YAML::convert<double>::decode(node[1], *second) || !std::isfinite(*first) ||
       !std::isfinite(*second)) {
-    section.complain("'" + key + "' must be two numbers, [x, y]");
+    section.complain("'" + section.path() + key + "' must be two numbers, [x, y]");
   }
 }
 
@@ -90,6 +92,9 @@ Action read_action(Section section) {
       });
   section.read<std::string>("insert", &action.insert, "the name of a mesh");
   section.read<std::string>("layout", &action.layout, "wearer or operator", is_layout);
+  if (!section.child("click") && action.layout.empty()) {
+    section.complain("'" + section.path() + "' has neither click nor layout");
+  }
   section.refuse_unknown();
   return action;
 }

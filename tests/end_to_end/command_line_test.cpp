@@ -32,6 +32,8 @@ TEST(EndToEndCommandLine, WrongCommandsExitWithTwoAndSayWhatToDo) {
   TemporaryFolder folder;
   write_text(folder / "typo.yaml", "mappings: {}\n");
   write_text(folder / "loop.yaml", "threads: false\n");
+  write_text(folder / "mesh.yaml", "actions: [{click: [1, 1], insert: teapott}]\n");
+  write_text(folder / "unmapped.yaml", "mapping: {enabled: false}\n");
   write_text(folder / "camera.yaml", "image_width: -3\n");
   const std::string typo = folder / "typo.yaml";
   const std::string loop = folder / "loop.yaml";
@@ -50,6 +52,10 @@ TEST(EndToEndCommandLine, WrongCommandsExitWithTwoAndSayWhatToDo) {
       {{"run", "--source", "sim:bench", "--config", "/no/such.yaml"}, "/no/such.yaml"},
       {{"run", "--source", "sim:bench", "--config", typo}, "mappings"},
       {{"run", "--source", "sim:bench", "--config", loop}, "every-frame"},
+      {{"run", "--source", "sim:bench", "--config", folder.path()}, "cannot be opened"},
+      {{"run", "--source", "sim:bench", "--config", folder / "mesh.yaml"}, "teapott"},
+      {{"run", "--source", "sim:bench", "--config", folder / "unmapped.yaml", "--map", "m.ot"},
+       "--map"},
       {{"run", "--source", "sim:bench", "--camera", camera}, "image_width"},
       {{"run", "--source", "sim:bench", "--display", "none", "--record", "a.mp4"}, "--record"},
       {{"run", "--source", "sim:bench", "--display", "egl", "--frames", "1", "--trajectory",

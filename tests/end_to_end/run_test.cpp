@@ -1,4 +1,7 @@
 // Whole runs through the command line: bit-identical, files complete, accuracy on real recordings.
+#include <cstdlib>
+#include <sys/wait.h>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -93,6 +96,33 @@ TEST(EndToEndRun, ThreadedTurnsAndRepeatsAreBitIdentical) {
   EXPECT_EQ(trajectories[0], trajectories[2]);
   EXPECT_EQ(events[0], events[1]);
   EXPECT_EQ(events[0], events[2]);
+}
+
+// A window in a display of its own; both paces must come to their end.
+TEST(EndToEndRun, AWindowOpensAndEnds) {
+  if (std::system("command -v xvfb-run >/dev/null") != 0)
+    GTEST_SKIP() << "xvfb-run is not installed";
+  for (const char* pace : {"live", "every-frame"}) {
+    const std::string command =
+        "timeout 60 xvfb-run -a " ARMSREACH_BINARY_DIR
+        "/armsreach run --source sim:bench --display window --frames 8 --pace " +
+        std::string(pace) + " >/dev/null 2>&1";
+    EXPECT_EQ(std::system(command.c_str()), 0) << pace;
+  }
+}
+
+TEST(EndToEndRun, AnInterruptEndsInOrder) {
+  TemporaryFolder folder;
+  const std::string command = "timeout --signal=INT 4 " ARMSREACH_BINARY_DIR
+                              "/armsreach run --source sim:bench --display egl --record " +
+                              (folder / "film.mp4").string() + " --stats " +
+                              (folder / "s.json").string() + " >/dev/null 2>&1";
+  // `timeout` itself says 124 when it had to interrupt.
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 124);
+  EXPECT_GT(json_from_file(folder / "s.json")["frames"], 0);
+  cv::VideoCapture film(folder / "film.mp4");
+  cv::Mat image;
+  EXPECT_TRUE(film.read(image));
 }
 
 // The bounds are what cv::rgbd's RgbdOdometry reaches at 640x480 on the same frames.

@@ -132,8 +132,8 @@ TEST(Runtime, AnExceptionIsAFaultAndNothingStops) {
     });
     threads ? run_threaded(loop.nodes()) : run_in_turns(loop.nodes());
     EXPECT_EQ(loop.results.size(), 50U);
-    EXPECT_GT(loop.faults.load(), 0);
-    EXPECT_EQ(loop.faults.load(), loop.mapping->statistics().faults.load());
+    EXPECT_GT(loop.mapping->statistics().faults.load(), 1);
+    EXPECT_EQ(loop.faults.load(), 1) << "a fault that repeats is told once";
   }
 }
 

@@ -22,7 +22,8 @@ TEST(Config, AnEmptyFileIsAllDefaults) {
 TEST(Config, ReadsWhatItDocuments) {
   const auto config = read(
       "layout: operator\nsize: [1280, 720]\nthreads: false\nlag: 2\n"
-      "tracking: {alpha: 1, iterations: 7, width: 160}\nmapping: {enabled: false, resolution: 0.02}\n"
+      "tracking: {alpha: 1, iterations: 7, width: 160}\nmapping: {enabled: false, resolution: "
+      "0.02}\n"
       "actions: [{frame: 30, click: [320, 240.5], view: live, insert: teapot}]\n");
   ASSERT_TRUE(config) << config.error().message();
   EXPECT_EQ(config->layout, "operator");
@@ -40,7 +41,7 @@ TEST(Config, RefusesByName) {
   const std::vector<std::pair<std::string, std::string>> broken = {
       {"mappings: {enabled: true}", "unknown key 'mappings'"},
       {"mapping: {resolutoin: 0.01}", "unknown key 'mapping.resolutoin'"},
-      {"actions: [{frame: 1, insret: cube}]", "unknown key 'actions[0].insret'"},
+      {"actions: [{frame: 1, click: [1, 1], insret: cube}]", "unknown key 'actions[0].insret'"},
       {"mapping: {resolution: -1}", "mapping.resolution"},
       {"mapping: {resolution: .nan}", "mapping.resolution"},
       {"tracking: {alpha: 2}", "tracking.alpha"},
@@ -49,8 +50,10 @@ TEST(Config, RefusesByName) {
       {"size: [12]", "size"},
       {"size: [1, 1]", "size"},
       {"actions: {frame: 1}", "actions"},
-      {"actions: [{frame: -1}]", "actions[0].frame"},
-      {"actions: [{view: left}]", "actions[0].view"},
+      {"actions: [{frame: -1, click: [1, 1]}]", "actions[0].frame"},
+      {"actions: [{view: left, click: [1, 1]}]", "actions[0].view"},
+      {"actions: [{frame: 3}]", "neither click nor layout"},
+      {"actions: [{click: [1]}]", "actions[0].click"},
       {"[1, 2", "YAML"},
       {"- 1", "not a map"},
   };
