@@ -28,8 +28,9 @@ struct VoxelMapOptions {
   double occupied_above = 0.51;   // probability
   double least_certain = 0.1192;  // clamps of the accumulated probability: OctoMap's, so that what
   double most_certain = 0.971;    // was carried away is forgotten within ten frames
-  double max_weight = 100;        // frontal observations from 1 m that the distance remembers
-  double intensity_rate = 0.1;    // least share a new intensity has in the mean
+  double max_weight = 5;          // frontal observations from 1 m that the distance remembers; more
+                          // keeps early drift in the map that later frames are tracked against
+  double intensity_rate = 0.1;  // least share a new intensity has in the mean
   // Every so many insertions also clear what the map still has in front of the band: things that
   // were carried away. 0: never.
   int carve_every = 2;
