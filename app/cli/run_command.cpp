@@ -1,5 +1,7 @@
 // armsreach run: the command line of a run.
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "app/cli/commands.hpp"
 #include "app/cli/run_options.hpp"
@@ -12,7 +14,9 @@ void add_run_command(CLI::App& app, Task* task) {
   auto* source = command->add_option(
       "--source", o->sources, "what to look through: SPEC or NAME=SPEC, see `armsreach sources`");
   command->add_option("--rig", o->rig, "YAML file of named sensors")->excludes(source);
-  command->add_option("--experience", o->experiences, "workspace")
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "--experience", [](const auto&) {}, "workspace, the only one there is")
       ->delimiter(',')
       ->check(CLI::IsMember({"workspace"}));
   command->add_option("--camera", o->camera, "camera YAML in place of the source's own");

@@ -22,8 +22,8 @@ using TrackingNode = StageNode<TrackInput, TrackedFramePtr>;
 using MappingNode = StageNode<TrackedFramePtr, MapStatePtr>;
 using ComposingNode = StageNode<ComposeInput, ComposedPtr>;
 
-constexpr size_t kJournalLength = 64;  // tracked frames waiting to be written down
-constexpr int kUserLag = 2;            // frames from a picture to the click on it, every-frame
+constexpr size_t kJournalLength = 8192;  // entries waiting to be written down
+constexpr int kUserLag = 2;              // frames from a picture to the click on it, every-frame
 
 // All stages of the experience and how they are joined:
 //
@@ -42,7 +42,7 @@ class Workspace {
   void join_tracking();
   void join_mapping();
   void join_composing();
-  void join_drawing(Presenter& presenter);
+  void join_drawing();
   FaultHandler fault_handler();
   std::vector<Node*> nodes();
   std::vector<render::StageRow> stage_rows();
@@ -55,13 +55,14 @@ class Workspace {
   const Config& config_;
   const WorkspaceOptions& options_;
   EventLog& log_;
+  Presenter& presenter_;
   Wiring wiring_;
   Journal journal_;
 
   std::shared_ptr<Connection<FramePtr>> frames_ = wiring_.driving<FramePtr>();
   std::shared_ptr<Connection<TrackedFramePtr>> to_map_ = wiring_.driving<TrackedFramePtr>();
   std::shared_ptr<Connection<TrackedFramePtr>> to_compose_ = wiring_.driving<TrackedFramePtr>();
-  std::shared_ptr<Connection<TrackedFramePtr>> to_journal_;
+  std::shared_ptr<Connection<std::optional<JournalEntry>>> to_journal_;
   std::shared_ptr<Connection<ComposedPtr>> scenes_ = wiring_.driving<ComposedPtr>();
   Following<MapStatePtr> map_for_tracking_{wiring_, config_.lag};
   Following<MapStatePtr> map_for_composing_{wiring_, config_.lag};
@@ -80,16 +81,17 @@ Workspace::Workspace(Rig& rig, Presenter& presenter, EventLog& log, const Config
     : config_(config),
       options_(options),
       log_(log),
+      presenter_(presenter),
       wiring_{options.pace, config.threads},
       journal_(log),
-      to_journal_(wiring_.queue<TrackedFramePtr>(kJournalLength)),
+      to_journal_(wiring_.queue<std::optional<JournalEntry>>(kJournalLength)),
       capture_(rig, {options.sensor, options.pace, options.frames}, log) {
   capture_.outlet().connect(frames_);
   capture_.at_end([this] { frames_->close(); });
   join_tracking();
   if (config_.mapping.enabled) join_mapping();
   join_composing();
-  join_drawing(presenter);
+  join_drawing();
 }
 
 void Workspace::join_tracking() {
@@ -101,12 +103,13 @@ void Workspace::join_tracking() {
         return TrackInput{*frame, mapping_ ? map_for_tracking_.take() : nullptr};
       },
       fault_handler());
-  tracking_->outlet().connect(to_journal_);
+  tracking_->outlet().connect(to_journal_, entry_from_tracked);
   tracking_->outlet().connect(to_compose_);
   tracking_->at_end([this] {
     frames_->close();
     map_for_tracking_.connection()->close();
-    for (const auto& out : {to_journal_, to_map_, to_compose_}) out->close();
+    to_journal_->close();
+    for (const auto& out : {to_map_, to_compose_}) out->close();
   });
 }
 
@@ -145,10 +148,10 @@ void Workspace::join_composing() {
   });
 }
 
-void Workspace::join_drawing(Presenter& presenter) {
+void Workspace::join_drawing() {
   drawing_ = std::make_unique<DrawNode>(
-      presenter, journal_, log_, DrawNode::Connections{scenes_, to_journal_, user_.connection()},
-      [this] { capture_.stop(); });
+      presenter_, journal_, log_, wiring_.pace,
+      DrawNode::Connections{scenes_, to_journal_, user_.connection()}, [this] { capture_.stop(); });
   drawing_->at_end([this] {
     scenes_->close();
     to_journal_->close();
@@ -241,6 +244,7 @@ Status Workspace::write_stats(const RunSummary& result) {
                                  {{"p50", latency.percentile(0.5)},
                                   {"p95", latency.percentile(0.95)},
                                   {"p99", latency.percentile(0.99)}}},
+                                {"film_frames_dropped", presenter_.dropped_film_frames()},
                                 {"peak_memory_mb", peak_memory_mb()},
                                 {"stages", stages}};
   return write_file(options_.stats, [&](std::ostream& out) { out << stats.dump(2) << "\n"; });
