@@ -32,7 +32,12 @@ void add_run_command(CLI::App& app, Task* task) {
   command->add_option("--trajectory", o->trajectory, "camera poses in TUM format");
   command->add_option("--events", o->events, "events, one JSON object a line");
   command->add_option("--stats", o->stats, "statistics as JSON");
-  command->add_option("--map", o->map, "map to save at the end (OctoMap .ot)");
+  auto* map = command->add_option(
+      "--map", o->map, "map to go on with if the file exists, and to save (OctoMap .ot)");
+  command
+      ->add_option("--session", o->session,
+                   "folder to go on with and to save: map, key frames, objects")
+      ->excludes(map);
   command->add_option("--config", o->config, "YAML, see 'Configuration' in the README");
   command->add_option("--seed", o->seed, "of everything random")->capture_default_str();
   command->callback([task, o] { *task = [o] { return run(*o); }; });

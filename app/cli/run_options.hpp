@@ -24,6 +24,7 @@ struct RunOptions {
   std::string events;
   std::string stats;
   std::string map;
+  std::string session;
   std::string config;
   std::uint64_t seed = 1;
 };
