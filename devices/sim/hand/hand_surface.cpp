@@ -1,0 +1,217 @@
+#include "devices/sim/hand/hand_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <span>
+#include <utility>
+
+namespace armsreach::sim {
+namespace {
+
+using Eigen::Vector3f;
+using Affine = Eigen::Matrix<float, 3, 4>;
+
+// What melts reaches this far; a lobe farther from a vertex at rest leaves it alone for good.
+constexpr float kReach = 0.007F;
+// Two bones share a vertex when their lobes are equally near up to this.
+constexpr float kShared = 0.007F;
+constexpr float kRigidArm = 0.05F;     // m behind the wrist, from where the arm is one bone
+constexpr float kSleeveHem = 0.07F;    // m behind the wrist
+constexpr float kSleeveGap = 0.0065F;  // m over the skin
+
+std::vector<float> steps(float from, float to, float step) {
+  std::vector<float> planes;
+  for (float at = from; at < to + step; at += step) planes.push_back(at);
+  return planes;
+}
+
+// Fine where the hand is, coarse along the arm.
+GridPlanes planes_around(const HandAnatomy& anatomy, const HandSurfaceOptions& options) {
+  const float cell = static_cast<float>(options.cell);
+  const float size = static_cast<float>(anatomy.length() / mean_anatomy().length());
+  const float wide = static_cast<float>(std::max(anatomy.breadth, anatomy.length() / 0.187));
+  const float arm = static_cast<float>(anatomy.forearm_radius) * 1.35F + 0.012F;
+  GridPlanes planes;
+  planes[0] = steps(-std::max(0.092F * wide, arm), std::max(0.112F * wide, arm), cell);
+  planes[2] = steps(-std::max(0.03F * wide, arm), std::max(0.062F * wide, arm), cell);
+  float y = -static_cast<float>(options.forearm) - 2 * cell;
+  while (y < 0.205F * size) {
+    planes[1].push_back(y);
+    const float fine = std::min(1.0F, std::max(0.0F, (-0.03F - y) / 0.06F));
+    y += cell * (1 + 2.5F * fine);
+  }
+  return planes;
+}
+
+Affine affine(const Pose& pose) { return pose.matrix().topRows<3>().cast<float>(); }
+
+const Pose& pose_of(const HandSkeleton& skeleton, Bone bone) {
+  return bone == kForearmBone ? skeleton.hand_from_forearm : skeleton.hand_from_joint[bone];
+}
+
+}  // namespace
+
+// The flesh at rest, cut off behind, with what is worn over it.
+struct HandSurface::Clothing {
+  const PosedFlesh& flesh;
+  const HandSurfaceOptions& options;
+  std::vector<std::uint16_t> all;
+
+  float bare(const Vector3f& p) const {
+    return std::max(flesh.sample(all, p).distance, -p.y() - static_cast<float>(options.forearm));
+  }
+  // Cloth with a few soft folds around the arm.
+  float cloth(const Vector3f& p, float skin) const {
+    const float folds = 0.0016F * std::sin(90 * p.y() + 2 * std::sin(40 * p.x()) + 25 * p.z());
+    const float over = skin - kSleeveGap - folds;
+    const float hem = p.y() + kSleeveHem;
+    return std::max(0.8F * over, hem);
+  }
+  float distance(const Vector3f& p) const {
+    const float skin = flesh.sample(all, p).distance;
+    const float arm = options.sleeve ? std::min(skin, cloth(p, skin)) : skin;
+    return std::max(arm, -p.y() - static_cast<float>(options.forearm));
+  }
+  bool sleeve(const Vector3f& p) const {
+    return options.sleeve && flesh.sample(all, p).distance > 0.3F * kSleeveGap &&
+           p.y() < -kSleeveHem + 0.002F;
+  }
+};
+
+HandPose HandSurface::rest_pose() {
+  constexpr double kDegree = std::numbers::pi / 180;
+  HandPose pose = HandPose::Zero();
+  pose[thumb_radial] = 55 * kDegree;
+  pose[thumb_palmar] = 22 * kDegree;
+  pose[thumb_twist] = 25 * kDegree;
+  constexpr std::array kSpread{14.0, 2.0, -11.0, -26.0};
+  for (const Finger finger : kFingers) {
+    pose[angle_index(finger, FingerAngle::spread)] =
+        kSpread[static_cast<std::size_t>(finger) - 1] * kDegree;
+  }
+  return pose;
+}
+
+HandSurface::HandSurface(const HandAnatomy& anatomy, const HandSurfaceOptions& options)
+    : anatomy_(anatomy), lobes_(flesh_of(anatomy)) {
+  const HandSkeleton skeleton = skeleton_of(anatomy, rest_pose());
+  for (Bone bone = 0; bone < kBoneCount; ++bone)
+    bone_from_rest_[bone] = affine(pose_of(skeleton, bone).inverse());
+  const PosedFlesh flesh(lobes_, skeleton);
+  Clothing clothing{flesh, options, std::vector<std::uint16_t>(lobes_.size())};
+  std::iota(clothing.all.begin(), clothing.all.end(), std::uint16_t{0});
+  rest_ = surface_net(planes_around(anatomy, options),
+                      [&clothing](const Vector3f& p) { return clothing.distance(p); });
+  settle(clothing);
+  bindings_.reserve(rest_.vertices.size());
+  for (const Vector3f& vertex : rest_.vertices)
+    bindings_.push_back(bound(vertex, lobes_, flesh, clothing));
+}
+
+// Evens the net's vertices out along the surface and brings them onto it.
+void HandSurface::settle(const Clothing& clothing) {
+  std::vector<Vector3f>& vertices = rest_.vertices;
+  const auto gradient = [&clothing](const Vector3f& p) {
+    constexpr float kStep = 2e-4F;
+    Vector3f g;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vector3f step = kStep * Vector3f::Unit(axis);
+      g[axis] = clothing.distance(p + step) - clothing.distance(p - step);
+    }
+    return Vector3f(g.normalized());
+  };
+  for (int round = 0; round < 3; ++round) {
+    std::vector<Vector3f> sums(vertices.size(), Vector3f::Zero());
+    std::vector<float> counts(vertices.size(), 0);
+    for (const auto& triangle : rest_.triangles) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        sums[triangle[i]] += vertices[triangle[(i + 1) % 3]];
+        counts[triangle[i]] += 1;
+      }
+    }
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      const Vector3f moved = 0.5F * (vertices[i] + sums[i] / counts[i]);
+      const Vector3f normal = gradient(moved);
+      vertices[i] = moved - clothing.distance(moved) * normal;
+    }
+  }
+  rest_normals_.reserve(vertices.size());
+  for (const Vector3f& vertex : vertices) rest_normals_.push_back(gradient(vertex));
+}
+
+HandSurface::Binding HandSurface::bound(const Vector3f& point, const std::vector<Lobe>& lobes,
+                                        const PosedFlesh& flesh, const Clothing& clothing) {
+  Binding binding;
+  binding.sleeve = clothing.sleeve(point);
+  if (binding.sleeve || point.y() < -kRigidArm) {
+    binding.bones.fill(static_cast<std::uint8_t>(kForearmBone));
+    binding.weights[0] = 1;
+    return binding;
+  }
+  std::vector<float> distances(lobes.size());
+  std::vector<float> alongs(lobes.size());
+  for (std::size_t i = 0; i < lobes.size(); ++i)
+    distances[i] = flesh.sample_one(i, point, &alongs[i]).distance;
+  const float nearest = *std::min_element(distances.begin(), distances.end());
+  std::array<float, kBoneCount> shares{};
+  binding.first_lobe = static_cast<std::uint32_t>(near_lobes_.size());
+  for (std::size_t i = 0; i < lobes.size(); ++i) {
+    if (distances[i] < nearest + kReach) near_lobes_.push_back(static_cast<std::uint16_t>(i));
+    const float closeness = std::max(0.0F, 1 - (distances[i] - nearest) / kShared);
+    const float weight = closeness * closeness;
+    shares[lobes[i].bone_a] += (1 - alongs[i]) * weight;
+    shares[lobes[i].bone_b] += alongs[i] * weight;
+  }
+  binding.lobe_count = static_cast<std::uint32_t>(near_lobes_.size()) - binding.first_lobe;
+  // Where the arm is cut off flat there is no flesh's surface to be drawn to.
+  if (std::abs(clothing.bare(point) - flesh.sample(clothing.all, point).distance) > 2e-4F)
+    binding.lobe_count = 0;
+  float sum = 0;
+  for (std::size_t k = 0; k < kBones; ++k) {
+    const auto most = std::max_element(shares.begin(), shares.end());
+    binding.bones[k] = static_cast<std::uint8_t>(most - shares.begin());
+    binding.weights[k] = std::exchange(*most, 0.0F);
+    sum += binding.weights[k];
+  }
+  for (float& weight : binding.weights) weight /= sum;
+  return binding;
+}
+
+// Bones carry each vertex to about its place (linear blend skinning, which loses volume at bent
+// joints); two steps along the posed flesh's gradient bring it onto the surface again.
+void HandSurface::pose(const HandSkeleton& skeleton, PosedSurface& out) const {
+  std::array<Affine, kBoneCount> posed_from_rest;
+  for (Bone bone = 0; bone < kBoneCount; ++bone) {
+    const Affine posed = affine(pose_of(skeleton, bone));
+    posed_from_rest[bone].leftCols<3>() = posed.leftCols<3>() * bone_from_rest_[bone].leftCols<3>();
+    posed_from_rest[bone].col(3) =
+        posed.leftCols<3>() * bone_from_rest_[bone].col(3) + posed.col(3);
+  }
+  const PosedFlesh flesh(lobes_, skeleton);
+  out.positions.resize(rest_.vertices.size());
+  out.normals.resize(rest_.vertices.size());
+  for (std::size_t i = 0; i < rest_.vertices.size(); ++i) {
+    const Binding& binding = bindings_[i];
+    Affine carry = binding.weights[0] * posed_from_rest[binding.bones[0]];
+    for (std::size_t k = 1; k < kBones && binding.weights[k] > 0; ++k)
+      carry += binding.weights[k] * posed_from_rest[binding.bones[k]];
+    Vector3f position = carry.leftCols<3>() * rest_.vertices[i] + carry.col(3);
+    Vector3f normal = carry.leftCols<3>() * rest_normals_[i];
+    if (binding.lobe_count > 0) {
+      const std::span<const std::uint16_t> near(near_lobes_.data() + binding.first_lobe,
+                                                binding.lobe_count);
+      for (int step = 0; step < 2; ++step) {
+        const FieldSample sample = flesh.sample(near, position);
+        const float slope = std::max(sample.outwards.squaredNorm(), 0.25F);
+        position -= sample.distance / slope * sample.outwards;
+        normal = sample.outwards;
+      }
+    }
+    out.positions[i] = position;
+    out.normals[i] = normal.normalized();
+  }
+}
+
+}  // namespace armsreach::sim

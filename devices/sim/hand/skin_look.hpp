@@ -1,0 +1,41 @@
+// The colours of skin, nails and sleeve, and how light falls on a posed hand.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "devices/sim/hand/hand_surface.hpp"
+#include "devices/sim/world.hpp"
+
+namespace armsreach::sim {
+
+enum class SkinTone { pale, light, medium, tan, brown, dark };
+inline constexpr int kSkinToneCount = 6;
+std::string_view name(SkinTone tone);
+std::optional<SkinTone> skin_tone_named(std::string_view name);
+
+// Of every vertex: sRGB 0..1, red first.
+std::vector<Eigen::Vector3f> colors_of(const HandSurface& surface, SkinTone tone,
+                                       const Color& sleeve);
+
+// Light that reaches a posed surface, of a right hand in its own frame: the share of what comes
+// from all sides that the hand itself lets through to each vertex.
+std::vector<float> openness(const HandSkeleton& skeleton, const HandAnatomy& anatomy,
+                            const PosedSurface& posed);
+
+// As seen: B G R in 0..255. `light` and `eye` are in the frame of the normals and positions;
+// `up` is where Light::above comes from.
+struct Lighting {
+  Light light;
+  Eigen::Vector3f up{0, 0, 1};
+  Eigen::Vector3f eye{0, 0, 0};
+};
+std::vector<Eigen::Vector3f> lit(const std::vector<Eigen::Vector3f>& colors,
+                                 const std::vector<float>& openness, const PosedSurface& placed,
+                                 const Lighting& lighting);
+
+}  // namespace armsreach::sim
