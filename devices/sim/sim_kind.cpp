@@ -20,6 +20,41 @@ constexpr SensorOption kSensorOptions[] = {{"rate", &sim::SensorDescription::rat
                                            {"near", &sim::SensorDescription::nearest, 0, 100},
                                            {"far", &sim::SensorDescription::farthest, 0.01, 100}};
 
+// The same for what the colour camera does.
+struct ColorOption {
+  const char* key;
+  double sim::ColorDescription::*number;
+  double high;
+  double unit;
+};
+constexpr ColorOption kColorOptions[] = {
+    {"color_noise", &sim::ColorDescription::noise, 50, 1},
+    {"exposure_ms", &sim::ColorDescription::exposure, 1000, 1e-3},
+    {"exposure_lag", &sim::ColorDescription::exposure_lag, 100, 1},
+    {"exposure_drift", &sim::ColorDescription::exposure_drift, 0.5, 1},
+    {"white_balance_drift", &sim::ColorDescription::white_balance_drift, 0.5, 1}};
+
+// "color=clean" first takes everything away; each number then overrides one thing.
+Status apply_color(const SourceSpec& spec, sim::ColorDescription& color) {
+  const std::string noise = option(spec, "noise").value_or("");
+  const std::string text = option(spec, "color").value_or(noise == "none" ? "clean" : "world");
+  if (text != "clean" && text != "webcam" && text != "world") {
+    return Error{"option 'color' is '" + text + "'", text_of(spec),
+                 "give clean, webcam, or leave it out for what the world says"};
+  }
+  if (text == "clean") color = sim::kCleanColor;
+  if (text == "webcam") color = {};
+  for (const ColorOption& one : kColorOptions) {
+    auto value = number_option(spec, one.key, color.*one.number / one.unit, 0, one.high);
+    if (!value) return value.error();
+    color.*one.number = *value * one.unit;
+  }
+  auto quality = number_option(spec, "jpeg", color.jpeg_quality, 0, 100);
+  if (!quality) return quality.error();
+  color.jpeg_quality = static_cast<int>(*quality);
+  return ok();
+}
+
 Status apply_noise(const SourceSpec& spec, sim::SensorDescription& sensor) {
   const auto text = option(spec, "noise");
   if (!text) return ok();
@@ -54,6 +89,7 @@ Status apply_size(const SourceSpec& spec, sim::SensorDescription& sensor) {
 
 Status apply_sensor(const SourceSpec& spec, sim::SensorDescription& sensor) {
   if (auto status = apply_noise(spec, sensor); !status) return status;
+  if (auto status = apply_color(spec, sensor.color); !status) return status;
   if (auto status = apply_size(spec, sensor); !status) return status;
   for (const SensorOption& one : kSensorOptions) {
     auto value = number_option(spec, one.key, sensor.*one.number, one.low, one.high);
@@ -123,9 +159,12 @@ std::vector<SourceKind> sim_source_kinds() {
   kind.name = "sim";
   kind.usage =
       "sim:WORLD[,seed=N][,noise=none|kinect|FACTOR][,speed=X][,frames=N][,loop=endless]"
-      "[,width=PX][,height=PX][,rate=HZ][,near=M][,far=M]";
-  kind.option_keys = {"seed",  "noise",  "speed", "frames", "loop",
-                      "width", "height", "rate",  "near",   "far"};
+      "[,width=PX][,height=PX][,rate=HZ][,near=M][,far=M]"
+      "[,color=clean|webcam][,color_noise=LEVELS][,exposure_ms=MS][,exposure_lag=S]"
+      "[,exposure_drift=SHARE][,white_balance_drift=SHARE][,jpeg=QUALITY]";
+  kind.option_keys = {"seed",   "noise", "speed", "frames", "loop",  "width",
+                      "height", "rate",  "near",  "far",    "color", "jpeg"};
+  for (const ColorOption& one : kColorOptions) kind.option_keys.emplace_back(one.key);
   kind.open = open_sim;
   kind.probe = probe_worlds;
   return {kind};

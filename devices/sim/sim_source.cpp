@@ -4,10 +4,12 @@
 #include <cmath>
 #include <utility>
 
+#include "devices/sim/color_sensor.hpp"
+#include "devices/sim/depth_sensor.hpp"
+#include "devices/sim/exposure.hpp"
 #include "devices/sim/own_thread.hpp"
 #include "devices/sim/path.hpp"
 #include "devices/sim/random.hpp"
-#include "devices/sim/sensor.hpp"
 #include "devices/sim/world_renderer.hpp"
 #include "render/context.hpp"
 #include "vision/core/time.hpp"
@@ -93,7 +95,8 @@ class SimSource final : public Source {
     const double time = static_cast<double>(index_) / world_.sensor.rate;
     const double path_time = options_.speed * time;
     const Pose pose = path_.world_from_camera(path_time);
-    auto exact = studio_.draw(world_, sensor_->camera(), mixed(options_.seed, kForPatterns), pose);
+    auto exact = draw(pose);
+    if (exact) exact = while_exposed(std::move(*exact), path_time);
     if (!exact) {  // there is no context: there will be none for the next frame either
       stopped_ = true;
       return exact.error();
@@ -101,7 +104,7 @@ class SimSource final : public Source {
     auto frame = std::make_shared<Frame>();
     frame->index = index_;
     frame->time = timestamp_from_seconds(time);
-    frame->color = color_sensor_.measure(exact->color, path_time / path_.duration(), index_);
+    frame->color = color_sensor_.measure(exact->color, time, index_);
     frame->depth = depth_sensor_.measure(exact->depth, exact->returned, index_);
     frame->sensor = sensor_;
     frame->world_from_camera = pose;
@@ -110,6 +113,32 @@ class SimSource final : public Source {
   }
 
  private:
+  Result<ExactImages> draw(const Pose& world_from_camera) {
+    return studio_.draw(world_, sensor_->camera(), mixed(options_.seed, kForPatterns),
+                        world_from_camera);
+  }
+
+  // `middle` with the colour of all of the exposure around its moment.
+  Result<ExactImages> while_exposed(ExactImages middle, double path_time) {
+    const double duration = options_.speed * world_.sensor.color.exposure;
+    if (duration == 0) return middle;
+    const Pose first = path_.world_from_camera(path_time - duration / 2);
+    const Pose last = path_.world_from_camera(path_time + duration / 2);
+    const double motion = picture_motion(middle.depth, sensor_->camera(), last.inverse() * first);
+    LightSum light;
+    for (const double moment : exposure_moments(duration, motion)) {
+      if (moment == 0) {
+        light.add(middle.color);
+        continue;
+      }
+      auto drawn = draw(path_.world_from_camera(path_time + moment));
+      if (!drawn) return drawn;
+      light.add(drawn->color);
+    }
+    if (light.count() > 1) middle.color = light.mean();
+    return middle;
+  }
+
   World world_;
   SimOptions options_;
   std::shared_ptr<const SensorInfo> sensor_;

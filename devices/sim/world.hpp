@@ -102,6 +102,19 @@ struct PathDescription {
   Tremor tremor;
 };
 
+// What a colour camera makes of an exact picture. The defaults are a decent webcam's indoors.
+struct ColorDescription {
+  double noise = 1.5;            // shot noise: grey levels rms, alike at all but the darkest
+  double exposure = 0.006;       // s; what moves meanwhile blurs; 0: nothing does
+  double exposure_lag = 0.4;     // s in which 63 % of a change of light are made up for; 0: never
+  double exposure_drift = 0.03;  // largest slow relative change of brightness
+  double white_balance_drift = 0.02;  // largest slow relative change of red, and of blue against it
+  double sharpness = 0.76;            // of a point's light, what its own pixel gets in a row
+  int jpeg_quality = 92;              // 1 .. 100; 0: not compressed
+};
+// Changes nothing.
+inline constexpr ColorDescription kCleanColor{0, 0, 0, 0, 0, 1, 0};
+
 struct SensorDescription {
   int width = 640;
   int height = 480;
@@ -110,8 +123,7 @@ struct SensorDescription {
   double nearest = 0;          // m: no depth nearer than this
   double farthest = 10;        // m
   double noise = 1;            // depth noise in units of the Kinect's; 0: an exact sensor
-  double color_noise = 1.5;    // grey levels, rms
-  double exposure_drift = 0;   // largest relative change of brightness over the path
+  ColorDescription color;
 };
 
 struct World {

@@ -116,6 +116,21 @@ class Map {
   std::vector<std::string> asked_;
 };
 
+ColorDescription color_description_from(const YAML::Node& node, const std::string& name) {
+  if (node.IsScalar() && node.Scalar() == "clean") return kCleanColor;
+  Map map(node, name);
+  ColorDescription color;
+  color.noise = map.number("noise", 0, 50, color.noise);
+  color.exposure = 1e-3 * map.number("exposure_ms", 0, 1000, 1e3 * color.exposure);
+  color.exposure_lag = map.number("exposure_lag", 0, 100, color.exposure_lag);
+  color.exposure_drift = map.number("exposure_drift", 0, 0.5, color.exposure_drift);
+  color.white_balance_drift = map.number("white_balance_drift", 0, 0.5, color.white_balance_drift);
+  color.sharpness = map.number("sharpness", 0.34, 1, color.sharpness);
+  color.jpeg_quality = static_cast<int>(map.number("jpeg", 0, 100, color.jpeg_quality));
+  map.refuse_others();
+  return color;
+}
+
 SensorDescription sensor_from(Map map) {
   SensorDescription sensor;
   sensor.width = static_cast<int>(map.number("width", 16, 4096));
@@ -128,8 +143,8 @@ SensorDescription sensor_from(Map map) {
   if (sensor.nearest < 0 || sensor.farthest <= sensor.nearest)
     throw Complaint{"'sensor.depth_range' is not [near, far]"};
   sensor.noise = map.number("noise", 0, 100);
-  sensor.color_noise = map.number("color_noise", 0, 50);
-  sensor.exposure_drift = map.number("exposure_drift", 0, 0.5);
+  if (const YAML::Node color = map.find("color"))
+    sensor.color = color_description_from(color, map.path("color"));
   map.refuse_others();
   return sensor;
 }

@@ -1,8 +1,9 @@
 // Codec of world files. A world is a map of
 //
 //   about: one line
-//   sensor: {width, height, field_of_view_deg, rate, depth_range: [near, far], noise, color_noise,
-//            exposure_drift}
+//   sensor: {width, height, field_of_view_deg, rate, depth_range: [near, far], noise,
+//            color: clean | {noise, exposure_ms, exposure_lag, exposure_drift, white_balance_drift,
+//                            sharpness, jpeg}}
 //   light: {towards: [x, y, z], spread_deg, key: colour, key_strength, above, below,
 //           ambient_strength}
 //   path: {duration, closed, sway, sway_deg, shake, shake_deg,

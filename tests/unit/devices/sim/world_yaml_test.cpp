@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 const std::string kWorld = R"(about: a cube on the floor
 sensor: {width: 64, height: 48, field_of_view_deg: 60, rate: 30, depth_range: [0.5, 4], noise: 1,
-         color_noise: 2, exposure_drift: 0}
+         color: {noise: 2, exposure_ms: 20, jpeg: 50}}
 light: {towards: [0, 0, 2], spread_deg: 10, key: "#ffffff", key_strength: 1, above: "#808080",
         below: "#404040", ambient_strength: 0.5}
 path: {duration: 2, keys: [{time: 0, eye: [0, -1, 1], target: [0, 0, 0]},
@@ -35,6 +35,21 @@ std::string replaced(const std::string& from, const std::string& to) {
   const auto at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   return text.replace(at, from.size(), to);
+}
+
+TEST(WorldYaml, ReadsWhatAColourCameraDoes) {
+  const ColorDescription usual;
+  const ColorDescription color = read(kWorld)->sensor.color;
+  EXPECT_EQ(color.noise, 2);
+  EXPECT_DOUBLE_EQ(color.exposure, 0.02);
+  EXPECT_EQ(color.jpeg_quality, 50);
+  EXPECT_EQ(color.white_balance_drift, usual.white_balance_drift);
+  const std::string given = "color: {noise: 2, exposure_ms: 20, jpeg: 50}";
+  const ColorDescription clean = read(replaced(given, "color: clean"))->sensor.color;
+  EXPECT_EQ(clean.noise, 0);
+  EXPECT_EQ(clean.exposure, 0);
+  EXPECT_EQ(clean.jpeg_quality, 0);
+  EXPECT_THAT(read(replaced("jpeg: 50", "jpg: 50")).error().what, HasSubstr("sensor.color.jpg"));
 }
 
 TEST(WorldYaml, ReadsWhatIsThere) {

@@ -1,11 +1,12 @@
-// From exact images to what a structured-light camera and its colour camera would have measured.
-// The same seed and frame index give the same noise.
+// From exact images to what a structured-light camera would have measured. The same seed and frame
+// index give the same noise.
 #pragma once
 
 #include <cstdint>
 
 #include <opencv2/core/mat.hpp>
 
+#include "devices/sim/noise_tile.hpp"
 #include "devices/sim/world.hpp"
 
 namespace armsreach::sim {
@@ -31,21 +32,7 @@ class DepthSensor {
 
   SensorDescription description_;
   float focal_;
-  std::uint64_t seed_;
-  cv::Mat noise_;  // unit normal; empty for an exact sensor
-};
-
-class ColorSensor {
- public:
-  ColorSensor(const SensorDescription& description, std::uint64_t seed);
-
-  // `exact`: CV_8UC3. `phase`: share of the path that is done; brightness drifts along it.
-  cv::Mat measure(const cv::Mat& exact, double phase, std::int64_t frame) const;
-
- private:
-  SensorDescription description_;
-  std::uint64_t seed_;
-  cv::Mat noise_;  // CV_16S, grey levels * 256; empty for an exact sensor
+  NoiseTile noise_;  // empty for an exact sensor
 };
 
 }  // namespace armsreach::sim

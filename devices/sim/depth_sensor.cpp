@@ -1,14 +1,10 @@
-#include "devices/sim/sensor.hpp"
+#include "devices/sim/depth_sensor.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
-#include <vector>
 
-#include <opencv2/imgproc.hpp>
-
-#include "devices/sim/random.hpp"
+#include <opencv2/core.hpp>
 
 namespace armsreach::sim {
 namespace {
@@ -24,43 +20,12 @@ const float kBeforeRounding = static_cast<float>(std::sqrt(0.25 - 1.0 / 12));
 constexpr float kFaintest = 0.2F;
 constexpr float kFaintestWavers = 0.03F;
 
-// Random numbers are drawn once into a tile that repeats; a frame reads it from an offset of its
-// own. Rows are longer than the period by an image's width, so that reading them never wraps.
-constexpr int kPeriod = 512;
-
-int row_of(std::uint64_t key, int y) {
-  return static_cast<int>((key + static_cast<std::uint64_t>(y)) % kPeriod);
-}
-int column_of(std::uint64_t key) { return static_cast<int>((key >> 32) % kPeriod); }
-
-cv::Mat with_longer_rows(const cv::Mat& tile, int width) {
-  cv::Mat longer;
-  cv::copyMakeBorder(tile, longer, 0, 0, 0, width, cv::BORDER_WRAP);
-  return longer;
-}
-
-// Unit normal and, as in real depth images, alike in neighbouring pixels.
-cv::Mat depth_noise_tile(int width, std::uint64_t seed) {
-  Random random(seed);
-  cv::Mat tile(kPeriod, kPeriod, CV_32F);
-  for (int y = 0; y < kPeriod; ++y) {
-    for (int x = 0; x < kPeriod; ++x) tile.at<float>(y, x) = static_cast<float>(random.normal());
-  }
-  cv::Mat wrapped;
-  cv::copyMakeBorder(tile, wrapped, 1, 1, 1, 1, cv::BORDER_WRAP);
-  const cv::Matx13f taps(0.5F, 1.0F, 0.5F);
-  cv::Mat smooth;
-  cv::sepFilter2D(wrapped, smooth, CV_32F, taps, taps);
-  smooth = smooth(cv::Rect(1, 1, kPeriod, kPeriod));
-  smooth = smooth / 1.5;  // the taps' norm, twice: 0.25 + 1 + 0.25
-  return with_longer_rows(smooth, width);
-}
-
 }  // namespace
 
 DepthSensor::DepthSensor(const SensorDescription& description, double focal, std::uint64_t seed)
-    : description_(description), focal_(static_cast<float>(focal)), seed_(seed) {
-  if (description_.noise > 0) noise_ = depth_noise_tile(description_.width, seed);
+    : description_(description), focal_(static_cast<float>(focal)) {
+  // As in real depth images, errors are alike in neighbouring pixels.
+  if (description_.noise > 0) noise_ = NoiseTile(description_.width, seed, NoiseTile::Kind::smooth);
 }
 
 cv::Mat DepthSensor::measure(const cv::Mat& exact, const cv::Mat& returned,
@@ -70,10 +35,9 @@ cv::Mat DepthSensor::measure(const cv::Mat& exact, const cv::Mat& returned,
     cut.setTo(kUnknown, (exact < description_.nearest) | (exact > description_.farthest));
     return cut;
   }
-  const std::uint64_t key = mixed(seed_, static_cast<std::uint64_t>(frame));
   cv::Mat measured(exact.size(), CV_32F);
   for (int y = 0; y < exact.rows; ++y)
-    measure_row(exact, returned, noise_.ptr<float>(row_of(key, y)) + column_of(key), y, measured);
+    measure_row(exact, returned, noise_.row(frame, y), y, measured);
   return measured;
 }
 
@@ -114,40 +78,6 @@ void DepthSensor::measure_row(const cv::Mat& exact, const cv::Mat& returned, con
     if (column >= leftmost) out[x] = kUnknown;
     leftmost = std::min(leftmost, column);
   }
-}
-
-ColorSensor::ColorSensor(const SensorDescription& description, std::uint64_t seed)
-    : description_(description), seed_(seed) {
-  if (description_.noise <= 0 || description_.color_noise <= 0) return;
-  Random random(seed);
-  cv::Mat tile(kPeriod, 3 * kPeriod, CV_16S);
-  for (int y = 0; y < tile.rows; ++y) {
-    for (int x = 0; x < tile.cols; ++x) {
-      tile.at<std::int16_t>(y, x) = cv::saturate_cast<std::int16_t>(
-          std::lround(256 * description_.color_noise * random.normal()));
-    }
-  }
-  noise_ = with_longer_rows(tile, 3 * description_.width);
-}
-
-cv::Mat ColorSensor::measure(const cv::Mat& exact, double phase, std::int64_t frame) const {
-  if (noise_.empty()) return exact.clone();
-  const std::uint64_t key = mixed(seed_, static_cast<std::uint64_t>(frame));
-  const double drift = description_.exposure_drift * std::sin(2 * std::numbers::pi * 2 * phase);
-  const int gain = static_cast<int>(std::lround(256 * (1 + drift)));
-  // A lens and its colour filters spread a point over more than its pixel.
-  const cv::Matx13f spread(0.12F, 0.76F, 0.12F);
-  cv::Mat through_lens;
-  cv::sepFilter2D(exact, through_lens, CV_8U, spread, spread);
-  cv::Mat measured(exact.size(), CV_8UC3);
-  for (int y = 0; y < exact.rows; ++y) {
-    const std::uint8_t* in = through_lens.ptr<std::uint8_t>(y);
-    const std::int16_t* noise = noise_.ptr<std::int16_t>(row_of(key, y)) + 3 * column_of(key);
-    std::uint8_t* out = measured.ptr<std::uint8_t>(y);
-    for (int i = 0; i < 3 * exact.cols; ++i)
-      out[i] = static_cast<std::uint8_t>(std::clamp((in[i] * gain + noise[i] + 128) >> 8, 0, 255));
-  }
-  return measured;
 }
 
 }  // namespace armsreach::sim

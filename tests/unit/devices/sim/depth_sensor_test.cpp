@@ -1,4 +1,4 @@
-#include "devices/sim/sensor.hpp"
+#include "devices/sim/depth_sensor.hpp"
 
 #include <cmath>
 #include <limits>
@@ -17,7 +17,6 @@ SensorDescription kinect() {
   SensorDescription sensor;
   sensor.nearest = 0.6;
   sensor.farthest = 6;
-  sensor.color_noise = 2;
   return sensor;
 }
 
@@ -161,28 +160,6 @@ TEST(DepthSensor, IsTheSameForASeedAndFrameOnly) {
   EXPECT_EQ(cv::norm(a, b, cv::NORM_INF), 0);
   EXPECT_GT(cv::norm(a, DepthSensor(kinect(), kFocal, 1).measure(wall, bright(), 5)), 0);
   EXPECT_GT(cv::norm(a, DepthSensor(kinect(), kFocal, 2).measure(wall, bright(), 4)), 0);
-}
-
-TEST(ColorSensor, AddsNoiseAndDrifts) {
-  SensorDescription description = kinect();
-  description.exposure_drift = 0.1;
-  const ColorSensor sensor(description, 1);
-  const cv::Mat grey(kHeight, kWidth, CV_8UC3, cv::Scalar(100, 100, 100));
-  const cv::Mat steady = sensor.measure(grey, 0, 0);
-  const Statistics s = statistics(steady.reshape(1));
-  EXPECT_NEAR(s.mean, 100, 0.1);
-  // Rounding to whole levels adds 1/12 to the variance.
-  EXPECT_NEAR(s.deviation, std::sqrt(4 + 1.0 / 12), 0.05);
-  // The drift is at its height an eighth of the path on.
-  EXPECT_NEAR(statistics(sensor.measure(grey, 0.125, 0).reshape(1)).mean, 110, 0.5);
-}
-
-TEST(ColorSensor, AnExactSensorChangesNothing) {
-  SensorDescription description = kinect();
-  description.noise = 0;
-  cv::Mat image(kHeight, kWidth, CV_8UC3);
-  cv::randu(image, 0, 256);
-  EXPECT_EQ(cv::norm(ColorSensor(description, 1).measure(image, 0.2, 3), image, cv::NORM_INF), 0);
 }
 
 }  // namespace
