@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "devices/sim/hand_stage.hpp"
 #include "devices/sim/own_thread.hpp"
 #include "devices/sim/path.hpp"
 #include "devices/sim/random.hpp"
@@ -38,7 +39,7 @@ class Studio {
   }
 
   Result<ExactImages> draw(const World& world, const Camera& camera, std::uint64_t seed,
-                           const Pose& world_from_camera) {
+                           const Pose& world_from_camera, const std::vector<PlacedThing>& moved) {
     Result<ExactImages> images = ExactImages{};
     thread_.run([&] {
       if (!renderer_) {
@@ -47,6 +48,7 @@ class Studio {
           return;
         }
       }
+      for (const PlacedThing& one : moved) renderer_->place(one.thing, one.world_from_thing);
       images = renderer_->draw(world_from_camera);
     });
     return images;
@@ -76,7 +78,11 @@ class SimSource final : public Source {
         sensor_(sensor_info(world, options)),
         path_(world.path, mixed(options.seed, kForPath)),
         depth_sensor_(world.sensor, sensor_->camera().fx, mixed(options.seed, kForDepth)),
-        color_sensor_(world.sensor, mixed(options.seed, kForColor)) {}
+        color_sensor_(world.sensor, mixed(options.seed, kForColor)) {
+    if (world.hands.empty()) return;
+    hands_.emplace(world, sensor_->camera(),
+                   [this](double time) { return path_.world_from_camera(time); });
+  }
 
   const std::shared_ptr<const SensorInfo>& sensor() const override { return sensor_; }
   void stop() override { stopped_ = true; }
@@ -93,11 +99,16 @@ class SimSource final : public Source {
     const double time = static_cast<double>(index_) / world_.sensor.rate;
     const double path_time = options_.speed * time;
     const Pose pose = path_.world_from_camera(path_time);
-    auto exact = studio_.draw(world_, sensor_->camera(), mixed(options_.seed, kForPatterns), pose);
+    // Around a closed path the script begins anew as the path does.
+    const double script_time =
+        world_.path.closed ? std::fmod(path_time, path_.duration()) : path_time;
+    auto exact = studio_.draw(world_, sensor_->camera(), mixed(options_.seed, kForPatterns), pose,
+                              hands_ ? hands_->held(script_time) : std::vector<PlacedThing>());
     if (!exact) {  // there is no context: there will be none for the next frame either
       stopped_ = true;
       return exact.error();
     }
+    if (hands_) hands_->draw(script_time, *exact);
     auto frame = std::make_shared<Frame>();
     frame->index = index_;
     frame->time = timestamp_from_seconds(time);
@@ -117,6 +128,7 @@ class SimSource final : public Source {
   DepthSensor depth_sensor_;
   ColorSensor color_sensor_;
   Studio studio_;
+  std::optional<HandStage> hands_;
   std::int64_t index_ = 0;
   std::atomic<bool> stopped_{false};
 };
