@@ -20,6 +20,13 @@ double picture_motion(const cv::Mat& depth, const Camera& camera, const Pose& se
   return largest;
 }
 
+double picture_motion(const Camera& camera, const Eigen::Vector3d& first,
+                      const Eigen::Vector3d& second) {
+  const auto before = project(camera, first);
+  const auto after = project(camera, second);
+  return before && after ? (*after - *before).norm() : 0;
+}
+
 std::vector<double> exposure_moments(double duration, double motion) {
   constexpr double kMost = 16;
   const double pairs = std::ceil((std::clamp(motion, 1.0, kMost) - 1) / 2);
@@ -48,6 +55,24 @@ cv::Mat LightSum::mean() const {
       out[i] = static_cast<std::uint8_t>(std::sqrt(scale * static_cast<float>(sum[i])) + 0.5F);
   }
   return mean;
+}
+
+Result<ExactImages> exposed(ExactImages middle, double duration, double motion,
+                            const std::function<Result<ExactImages>(double moment)>& draw) {
+  const std::vector<double> moments = exposure_moments(duration, motion);
+  if (moments.size() == 1) return middle;
+  LightSum light;
+  for (const double moment : moments) {
+    if (moment == 0) {
+      light.add(middle.color);
+      continue;
+    }
+    auto drawn = draw(moment);
+    if (!drawn) return drawn;
+    light.add(drawn->color);
+  }
+  middle.color = light.mean();
+  return middle;
 }
 
 }  // namespace armsreach::sim

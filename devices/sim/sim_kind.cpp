@@ -3,6 +3,7 @@
 #include <numbers>
 #include <utility>
 
+#include "devices/sim/hand_source.hpp"
 #include "devices/sim/sim_source.hpp"
 #include "devices/sim/worlds.hpp"
 
@@ -167,7 +168,10 @@ std::vector<SourceKind> sim_source_kinds() {
   for (const ColorOption& one : kColorOptions) kind.option_keys.emplace_back(one.key);
   kind.open = open_sim;
   kind.probe = probe_worlds;
-  return {kind};
+  // A simulated hand can be drawn into whatever else can be opened.
+  std::vector<SourceKind> others = real_source_kinds();
+  others.push_back(kind);
+  return {kind, hand_source_kind(others)};
 }
 
 }  // namespace armsreach

@@ -1,5 +1,6 @@
 #include "devices/sim/sim_source.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <utility>
@@ -7,6 +8,7 @@
 #include "devices/sim/color_sensor.hpp"
 #include "devices/sim/depth_sensor.hpp"
 #include "devices/sim/exposure.hpp"
+#include "devices/sim/hand_stage.hpp"
 #include "devices/sim/own_thread.hpp"
 #include "devices/sim/path.hpp"
 #include "devices/sim/random.hpp"
@@ -40,7 +42,7 @@ class Studio {
   }
 
   Result<ExactImages> draw(const World& world, const Camera& camera, std::uint64_t seed,
-                           const Pose& world_from_camera) {
+                           const Pose& world_from_camera, const std::vector<PlacedThing>& moved) {
     Result<ExactImages> images = ExactImages{};
     thread_.run([&] {
       if (!renderer_) {
@@ -49,6 +51,7 @@ class Studio {
           return;
         }
       }
+      for (const PlacedThing& one : moved) renderer_->place(one.thing, one.world_from_thing);
       images = renderer_->draw(world_from_camera);
     });
     return images;
@@ -78,7 +81,11 @@ class SimSource final : public Source {
         sensor_(sensor_info(world, options)),
         path_(world.path, mixed(options.seed, kForPath)),
         depth_sensor_(world.sensor, sensor_->camera().fx, mixed(options.seed, kForDepth)),
-        color_sensor_(world.sensor, mixed(options.seed, kForColor)) {}
+        color_sensor_(world.sensor, mixed(options.seed, kForColor)) {
+    if (world.hands.empty()) return;
+    hands_.emplace(world, sensor_->camera(),
+                   [this](double time) { return path_.world_from_camera(time); });
+  }
 
   const std::shared_ptr<const SensorInfo>& sensor() const override { return sensor_; }
   void stop() override { stopped_ = true; }
@@ -95,7 +102,7 @@ class SimSource final : public Source {
     const double time = static_cast<double>(index_) / world_.sensor.rate;
     const double path_time = options_.speed * time;
     const Pose pose = path_.world_from_camera(path_time);
-    auto exact = draw(pose);
+    auto exact = draw(path_time);
     if (exact) exact = while_exposed(std::move(*exact), path_time);
     if (!exact) {  // there is no context: there will be none for the next frame either
       stopped_ = true;
@@ -113,30 +120,50 @@ class SimSource final : public Source {
   }
 
  private:
-  Result<ExactImages> draw(const Pose& world_from_camera) {
-    return studio_.draw(world_, sensor_->camera(), mixed(options_.seed, kForPatterns),
-                        world_from_camera);
+  // Around a closed path the script begins anew as the path does.
+  double script_time(double path_time) const {
+    const double turn = path_.duration();
+    return world_.path.closed ? path_time - turn * std::floor(path_time / turn) : path_time;
   }
 
-  // `middle` with the colour of all of the exposure around its moment.
+  Result<ExactImages> draw(double path_time) {
+    const double script = script_time(path_time);
+    auto exact = studio_.draw(world_, sensor_->camera(), mixed(options_.seed, kForPatterns),
+                              path_.world_from_camera(path_time),
+                              hands_ ? hands_->held(script) : std::vector<PlacedThing>());
+    if (exact && hands_) hands_->draw(script, *exact);
+    return exact;
+  }
+
+  // `middle` with the colour of the whole exposure around its moment.
   Result<ExactImages> while_exposed(ExactImages middle, double path_time) {
     const double duration = options_.speed * world_.sensor.color.exposure;
     if (duration == 0) return middle;
-    const Pose first = path_.world_from_camera(path_time - duration / 2);
-    const Pose last = path_.world_from_camera(path_time + duration / 2);
-    const double motion = picture_motion(middle.depth, sensor_->camera(), last.inverse() * first);
-    LightSum light;
-    for (const double moment : exposure_moments(duration, motion)) {
-      if (moment == 0) {
-        light.add(middle.color);
-        continue;
+    const double moves = motion(middle.depth, path_time, duration);
+    return exposed(std::move(middle), duration, moves,
+                   [&](double moment) { return draw(path_time + moment); });
+  }
+
+  // How far anything moves in the picture, in px.
+  double motion(const cv::Mat& depth, double path_time, double duration) const {
+    const double begin = path_time - duration / 2;
+    const double end = path_time + duration / 2;
+    const Camera& camera = sensor_->camera();
+    const Pose first = path_.world_from_camera(begin).inverse();
+    const Pose last = path_.world_from_camera(end).inverse();
+    double largest = picture_motion(depth, camera, last * first.inverse());
+    if (!hands_) return largest;
+    const auto before = hands_->truth(script_time(begin));
+    const auto after = hands_->truth(script_time(end));
+    for (std::size_t hand = 0; hand < before.size(); ++hand) {
+      for (std::size_t joint = 0; joint < kHandJointCount; ++joint) {
+        largest = std::max(
+            largest,
+            picture_motion(camera, first * before[hand].world_from_joint[joint].translation(),
+                           last * after[hand].world_from_joint[joint].translation()));
       }
-      auto drawn = draw(path_.world_from_camera(path_time + moment));
-      if (!drawn) return drawn;
-      light.add(drawn->color);
     }
-    if (light.count() > 1) middle.color = light.mean();
-    return middle;
+    return largest;
   }
 
   World world_;
@@ -146,6 +173,7 @@ class SimSource final : public Source {
   DepthSensor depth_sensor_;
   ColorSensor color_sensor_;
   Studio studio_;
+  std::optional<HandStage> hands_;
   std::int64_t index_ = 0;
   std::atomic<bool> stopped_{false};
 };

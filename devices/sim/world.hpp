@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "devices/sim/hand/hand_script.hpp"
 #include "vision/core/pose.hpp"
 
 namespace armsreach::sim {
@@ -134,6 +135,7 @@ struct World {
   Light light;
   PathDescription path;
   SensorDescription sensor;
+  std::vector<HandDescription> hands;
 };
 
 }  // namespace armsreach::sim

@@ -29,6 +29,10 @@ class WorldRenderer {
   // Paints all textures and gathers the light. `camera` is a plain pinhole.
   static Result<std::unique_ptr<WorldRenderer>> make(const render::Gl& gl, const World& world,
                                                      const Camera& camera, std::uint64_t seed);
+  // Moves a thing of the world; the light on it stays as it was gathered.
+  void place(std::size_t thing, const Pose& world_from_thing) {
+    world_.things[thing].world_from_thing = world_from_thing;
+  }
   ExactImages draw(const Pose& world_from_camera) const;
 
  private:

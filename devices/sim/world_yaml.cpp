@@ -10,126 +10,16 @@
 #include <Eigen/Geometry>
 #include <yaml-cpp/yaml.h>
 
+#include "devices/sim/color_yaml.hpp"
+#include "devices/sim/hand_yaml.hpp"
+#include "devices/sim/yaml_map.hpp"
+
 namespace armsreach::sim {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 
-// Complaints travel as exceptions inside this file, as yaml-cpp's own do, and leave it as Errors.
-struct Complaint {
-  std::string what;
-};
-
-double number_from(const YAML::Node& node, const std::string& key) {
-  double value = 0;
-  if (!node.IsScalar() || !YAML::convert<double>::decode(node, value) || !std::isfinite(value))
-    throw Complaint{"'" + key + "' is not a finite number"};
-  return value;
-}
-
-std::vector<double> numbers_from(const YAML::Node& node, const std::string& key) {
-  if (!node.IsSequence()) throw Complaint{"'" + key + "' is not a list of numbers"};
-  std::vector<double> values;
-  for (const YAML::Node& item : node) values.push_back(number_from(item, key));
-  return values;
-}
-
-Color color_from(const YAML::Node& node, const std::string& key) {
-  const std::string text = node.IsScalar() ? node.Scalar() : "";
-  const bool hexadecimal =
-      text.size() == 7 && text[0] == '#' &&
-      std::all_of(text.begin() + 1, text.end(), [](unsigned char c) { return std::isxdigit(c); });
-  if (!hexadecimal) throw Complaint{"'" + key + "' is not a colour such as \"#c08040\""};
-  const auto part = [&text](std::size_t at) { return std::stoi(text.substr(at, 2), nullptr, 16); };
-  return Color(part(1), part(3), part(5)) / 255.0;
-}
-
-// One map of the file; remembers which keys were asked for, so that the others can be refused.
-class Map {
- public:
-  Map(const YAML::Node& node, std::string name) : node_(node), name_(std::move(name)) {
-    if (!node_.IsMap()) throw Complaint{"'" + name_ + "' is not a map"};
-  }
-
-  std::string path(const std::string& key) const { return name_.empty() ? key : name_ + "." + key; }
-
-  // Null when it is not there.
-  YAML::Node find(const std::string& key) {
-    asked_.push_back(key);
-    return node_[key];
-  }
-  YAML::Node need(const std::string& key) {
-    YAML::Node node = find(key);
-    if (!node) throw Complaint{"'" + path(key) + "' is missing"};
-    return node;
-  }
-
-  double number(const std::string& key, double low, double high,
-                std::optional<double> fallback = std::nullopt) {
-    const YAML::Node node = fallback ? find(key) : need(key);
-    if (!node) return *fallback;
-    const double value = number_from(node, path(key));
-    if (value < low || value > high)
-      throw Complaint{"'" + path(key) + "' is not from " + YAML::Dump(YAML::Node(low)) + " to " +
-                      YAML::Dump(YAML::Node(high))};
-    return value;
-  }
-  bool flag(const std::string& key) {
-    const YAML::Node node = find(key);
-    bool value = false;
-    if (node && !YAML::convert<bool>::decode(node, value))
-      throw Complaint{"'" + path(key) + "' is neither true nor false"};
-    return value;
-  }
-  std::string text(const std::string& key) {
-    const YAML::Node node = need(key);
-    if (!node.IsScalar()) throw Complaint{"'" + path(key) + "' is not a text"};
-    return node.Scalar();
-  }
-  Color color(const std::string& key) { return color_from(need(key), path(key)); }
-  template <int N>
-  Eigen::Matrix<double, N, 1> vector(const std::string& key) {
-    const std::vector<double> values = numbers_from(need(key), path(key));
-    if (values.size() != N)
-      throw Complaint{"'" + path(key) + "' has not " + std::to_string(N) + " numbers"};
-    return Eigen::Matrix<double, N, 1>(values.data());
-  }
-  // Sizes of a shape.
-  template <int N>
-  Eigen::Matrix<double, N, 1> lengths(const std::string& key) {
-    const Eigen::Matrix<double, N, 1> values = vector<N>(key);
-    if (values.minCoeff() <= 0) throw Complaint{"'" + path(key) + "' has a size of zero or less"};
-    return values;
-  }
-
-  void refuse_others() const {
-    for (const auto& entry : node_) {
-      const std::string key = entry.first.Scalar();
-      if (std::find(asked_.begin(), asked_.end(), key) == asked_.end())
-        throw Complaint{"unknown key '" + path(key) + "'"};
-    }
-  }
-
- private:
-  YAML::Node node_;
-  std::string name_;
-  std::vector<std::string> asked_;
-};
-
-ColorDescription color_description_from(const YAML::Node& node, const std::string& name) {
-  if (node.IsScalar() && node.Scalar() == "clean") return kCleanColor;
-  Map map(node, name);
-  ColorDescription color;
-  color.noise = map.number("noise", 0, 50, color.noise);
-  color.exposure = 1e-3 * map.number("exposure_ms", 0, 1000, 1e3 * color.exposure);
-  color.exposure_lag = map.number("exposure_lag", 0, 100, color.exposure_lag);
-  color.exposure_drift = map.number("exposure_drift", 0, 0.5, color.exposure_drift);
-  color.white_balance_drift = map.number("white_balance_drift", 0, 0.5, color.white_balance_drift);
-  color.sharpness = map.number("sharpness", 0.34, 1, color.sharpness);
-  color.jpeg_quality = static_cast<int>(map.number("jpeg", 0, 100, color.jpeg_quality));
-  map.refuse_others();
-  return color;
-}
+using Map = YamlMap;
 
 SensorDescription sensor_from(Map map) {
   SensorDescription sensor;
@@ -144,7 +34,7 @@ SensorDescription sensor_from(Map map) {
     throw Complaint{"'sensor.depth_range' is not [near, far]"};
   sensor.noise = map.number("noise", 0, 100);
   if (const YAML::Node color = map.find("color"))
-    sensor.color = color_description_from(color, map.path("color"));
+    sensor.color = color_sensor_from(color, map.path("color"));
   map.refuse_others();
   return sensor;
 }
@@ -282,6 +172,15 @@ Thing thing_from(Map map, const std::vector<Material>& materials) {
   return thing;
 }
 
+void refuse_unknown_things(const HandDescription& hand, const std::vector<Thing>& things) {
+  for (const HandKey& key : hand.keys) {
+    const bool known = key.hold.empty() ||
+                       std::any_of(things.begin(), things.end(),
+                                   [&key](const Thing& thing) { return thing.name == key.hold; });
+    if (!known) throw Complaint{"'hands': there is no thing '" + key.hold + "' to hold"};
+  }
+}
+
 World world_from(const YAML::Node& root) {
   Map map(root, "");
   World world;
@@ -300,6 +199,8 @@ World world_from(const YAML::Node& root) {
     world.things.push_back(
         thing_from({things[i], "things[" + std::to_string(i) + "]"}, world.materials));
   }
+  if (const YAML::Node hands = map.find("hands")) world.hands = hands_from(hands, "hands");
+  for (const HandDescription& hand : world.hands) refuse_unknown_things(hand, world.things);
   map.refuse_others();
   return world;
 }

@@ -2,14 +2,14 @@
 //
 //   about: one line
 //   sensor: {width, height, field_of_view_deg, rate, depth_range: [near, far], noise,
-//            color: clean | {noise, exposure_ms, exposure_lag, exposure_drift, white_balance_drift,
-//                            sharpness, jpeg}}
+//            color: as in color_yaml.hpp}
 //   light: {towards: [x, y, z], spread_deg, key: colour, key_strength, above, below,
 //           ambient_strength}
 //   path: {duration, closed, sway, sway_deg, shake, shake_deg,
 //          keys: [{time, eye: [x, y, z], target: [x, y, z], roll_deg}, ...]}
 //   materials: {NAME: {pattern, colors: ["#rrggbb", ...], size | fit, shine, infrared}, ...}
 //   things: [{name, SHAPE, at: [x, y, z], turn_deg: [x, y, z], material}, ...]
+//   hands: none, or as in hand_yaml.hpp
 //
 // in metres and seconds, with angles in degrees where the key says so. SHAPE is one of box: [x, y,
 // z], cylinder: [radius, height], panel: [x, y], mug: [radius, height, wall], lathe: [[radius, z],

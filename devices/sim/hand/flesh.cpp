@@ -96,21 +96,21 @@ void add_palm(Builder& b) {
   b.add(b.carpus(10, -3, 0, 18.5), b.carpus(10, 24, 1, 15), 6);
   b.add(b.carpus(-10, -3, 0, 18.5), b.carpus(-12, 24, 1, 15), 6);
   for (const Finger finger : kFingers)
-    b.add(b.metacarpal(finger, 0.0, 0, 1, 12.5), b.metacarpal(finger, 0.97, 0, 1.5, 10.3), 9);
+    b.add(b.metacarpal(finger, 0.0, 0, 1, 12.5), b.metacarpal(finger, 0.96, 0, 1.5, 9.2), 8);
   // Between the metacarpals and their heads.
   for (std::size_t i = 0; i + 1 < kFingers.size(); ++i) {
     const Finger one = kFingers[i];
     const Finger next = kFingers[i + 1];
     b.add(b.metacarpal(one, 0.55, 0, 2, 11), b.metacarpal(next, 0.55, 0, 2, 11), 9);
-    b.add(b.metacarpal(one, 0.97, 0, 2.5, 10), b.metacarpal(next, 0.97, 0, 2.5, 10), 6);
+    b.add(b.metacarpal(one, 0.97, 0, 2.5, 9), b.metacarpal(next, 0.97, 0, 2.5, 9), 5);
   }
   // The ball of the little finger.
-  b.add(b.carpus(-19, 10, 5, 14), b.metacarpal(Finger::little, 0.4, -5, 6.5, 13.5), 9);
-  b.add(b.metacarpal(Finger::little, 0.4, -5, 6.5, 13.5),
+  b.add(b.carpus(-22, 9, 4, 15), b.metacarpal(Finger::little, 0.35, -6, 6, 14), 9);
+  b.add(b.metacarpal(Finger::little, 0.35, -6, 6, 14),
         b.metacarpal(Finger::little, 0.9, -0.5, 3.5, 10.8), 8);
   // The pad below the fingers' roots.
-  b.add(b.metacarpal(Finger::index, 0.97, 0, 5, 9.2), b.metacarpal(Finger::little, 0.97, 0, 5, 8.8),
-        6);
+  b.add(b.metacarpal(Finger::index, 0.97, 0, 4.5, 8.4),
+        b.metacarpal(Finger::little, 0.97, 0, 5, 8.8), 6);
 }
 
 void add_thumb(Builder& b) {
@@ -134,9 +134,9 @@ void add_thumb_phalanges(Builder& b, const HandAnatomy& anatomy) {
 
 void add_finger(Builder& b, Finger finger) {
   const FingerAnatomy& one = b.of(finger);
-  b.add(b.phalanx(finger, 1, 0.05, 0, 0.97), b.phalanx(finger, 1, 1.0, 0, 0.98), 6);
-  b.add(b.phalanx(finger, 1, -0.02, -3.4, 0.72), b.phalanx(finger, 1, 0.06, -3.0, 0.74),
-        5);  // knuckle
+  b.add(b.phalanx(finger, 1, 0.0, 0, 0.86), b.phalanx(finger, 1, 1.0, 0, 0.98), 5);
+  // Its knuckle, which stands out when it bends.
+  b.add(b.phalanx(finger, 1, -0.01, -2.2, 0.66), b.phalanx(finger, 1, 0.06, -2.0, 0.68), 4);
   b.add(b.phalanx(finger, 1, 0.4, 2.2, 0.86), b.phalanx(finger, 1, 0.72, 2.0, 0.84), 5);
   b.add(b.phalanx(finger, 2, 0.0, 0, 0.99), b.phalanx(finger, 2, 1.0, 0, 0.97), 3);
   b.add(b.phalanx(finger, 2, 0.3, 1.7, 0.85), b.phalanx(finger, 2, 0.7, 1.6, 0.86), 4);

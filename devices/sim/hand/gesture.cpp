@@ -93,7 +93,8 @@ struct Recipe {
 Recipe ring_with(Finger finger) {
   Recipe recipe;
   const double reach = finger == Finger::index ? 0 : finger == Finger::middle ? 4 : 8;
-  recipe.posture.spread(8, 0, -9, -22).curl_all(kStraight).thumb(kAcrossPalm);
+  recipe.posture.spread(12, 0, -10, -26).curl_all(kStraight).thumb(kAcrossPalm);
+  if (finger == Finger::little) recipe.posture.spread(16, 2, -10, -18);
   recipe.posture.curl(finger, {52 + reach, 62, 30}).cupped(finger == Finger::little ? 16 : 6);
   recipe.contacts = {pads(finger, 0.62, 0.6)};
   return recipe;
@@ -135,7 +136,7 @@ Recipe recipe_of(Gesture gesture) {
       posture.thumb({62, 8, 20, -2, -6});
       break;
     case Gesture::three:
-      posture.spread(8, -8, -8, -12).curl_all({78, 92, 45}).thumb(kOut).cupped(5);
+      posture.spread(11, -7, -8, -12).curl_all({78, 92, 45}).thumb(kOut).cupped(5);
       posture.curl(index, kStraight).curl(middle, kStraight);
       break;
     case Gesture::four:
@@ -210,6 +211,6 @@ HandPose pose_of(Gesture gesture, const HandAnatomy& anatomy, std::uint64_t mann
   return recipe.contacts.empty() ? prior : touching(anatomy, prior, recipe.contacts);
 }
 
-double shown_turn(Gesture gesture) { return gesture == Gesture::zero ? -45 * kDegree : 0; }
+double shown_turn(Gesture gesture) { return gesture == Gesture::zero ? 45 * kDegree : 0; }
 
 }  // namespace armsreach::sim

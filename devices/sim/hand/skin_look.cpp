@@ -9,28 +9,6 @@ namespace {
 
 using Eigen::Vector3f;
 
-struct Tone {
-  std::string_view name;
-  Vector3f back;  // of hand and arm, sRGB
-  Vector3f palm;
-  Vector3f nail;
-};
-Vector3f rgb(int hex) {
-  return Vector3f(static_cast<float>(hex >> 16), static_cast<float>((hex >> 8) & 255),
-                  static_cast<float>(hex & 255)) /
-         255;
-}
-const std::array<Tone, kSkinToneCount>& tones() {
-  static const std::array<Tone, kSkinToneCount> all{
-      Tone{"pale", rgb(0xf0cdb8), rgb(0xf2bfb0), rgb(0xf3c6bd)},
-      Tone{"light", rgb(0xe3b598), rgb(0xe8ab98), rgb(0xecb9aa)},
-      Tone{"medium", rgb(0xcf9a78), rgb(0xdba088), rgb(0xe2ae9c)},
-      Tone{"tan", rgb(0xb07c58), rgb(0xcb957a), rgb(0xd3a390)},
-      Tone{"brown", rgb(0x84563c), rgb(0xb98468), rgb(0xb98a78)},
-      Tone{"dark", rgb(0x563626), rgb(0xa2735b), rgb(0x9c7365)}};
-  return all;
-}
-
 float smooth_step(float low, float high, float at) {
   const float s = std::clamp((at - low) / (high - low), 0.0F, 1.0F);
   return s * s * (3 - 2 * s);
@@ -76,17 +54,17 @@ float folds_at(const Segment& segment, const Vector3f& p, const Vector3f& n) {
   const float pad_side = smooth_step(-0.1F, 0.5F, n.z());
   const float back_side = smooth_step(0.1F, 0.7F, -n.z());
   const float start = segment.first ? 0.45F * segment.length : -0.0005F;
-  const float fold = bump(p.y() - start, 0.0013F);
+  const float fold = bump(p.y() - start, 0.0017F);
   const float wrinkles =
       segment.first ? 0.0F : bump(p.y() - 0.001F, 0.0045F) * (0.6F + 0.4F * std::cos(p.y() * 2400));
-  return 0.16F * pad_side * fold + 0.10F * back_side * wrinkles;
+  return 0.13F * pad_side * fold + 0.10F * back_side * wrinkles;
 }
 
-Vector3f skin_at(const Tone& tone, const HandAnatomy& anatomy, Bone bone, const Vector3f& p,
-                 const Vector3f& n) {
+Vector3f skin_at(const SkinColors& tone, const HandAnatomy& anatomy, Bone bone, float from_wrist,
+                 const Vector3f& p, const Vector3f& n) {
   const float palm_side = smooth_step(-0.35F, 0.45F, n.z());
-  // Sides of fingers are like the palm, the arm's inside is not quite.
-  const float palmar = bone == kForearmBone ? 0.35F * palm_side : palm_side;
+  // Sides of fingers are like the palm, the arm's inside is less so.
+  const float palmar = palm_side * (0.35F + 0.65F * smooth_step(-0.02F, 0.03F, from_wrist));
   Vector3f skin = tone.back + palmar * (tone.palm - tone.back);
   const auto segment = segment_of(bone, anatomy);
   if (!segment) return skin;
@@ -99,6 +77,7 @@ Vector3f skin_at(const Tone& tone, const HandAnatomy& anatomy, Bone bone, const 
   if (!segment->last) return skin;
   const float nail = nail_at(*segment, p, n);
   const float white = smooth_step(0.86F, 0.93F, along);
+  skin *= 1 - 0.5F * nail * (1 - nail);  // the fold around it
   const Vector3f plate = tone.nail + 0.35F * white * (Vector3f(0.95F, 0.92F, 0.88F) - tone.nail);
   return skin + nail * (plate - skin);
 }
@@ -129,7 +108,7 @@ float palm_lines_at(const HandAnatomy& anatomy, const Vector3f& rest, const Vect
       nearest = std::min(nearest, (from - t * way).norm());
     }
   }
-  return 0.17F * bump(nearest, 0.0016F) * smooth_step(0.3F, 0.7F, normal.z());
+  return 0.13F * bump(nearest, 0.0021F) * smooth_step(0.3F, 0.7F, normal.z());
 }
 
 // Balls in the flesh that keep light off what lies opposite.
@@ -164,15 +143,6 @@ std::vector<Shade> shades_of(const HandSkeleton& skeleton, const HandAnatomy& an
 
 }  // namespace
 
-std::string_view name(SkinTone tone) { return tones()[static_cast<std::size_t>(tone)].name; }
-
-std::optional<SkinTone> skin_tone_named(std::string_view name) {
-  for (std::size_t i = 0; i < tones().size(); ++i) {
-    if (tones()[i].name == name) return static_cast<SkinTone>(i);
-  }
-  return std::nullopt;
-}
-
 std::vector<Vector3f> colors_of(const HandSurface& surface, SkinTone tone, const Color& sleeve) {
   const HandAnatomy& anatomy = surface.anatomy();
   const HandSkeleton rest = skeleton_of(anatomy, HandSurface::rest_pose());
@@ -190,8 +160,8 @@ std::vector<Vector3f> colors_of(const HandSurface& surface, SkinTone tone, const
     const Vector3f& normal = surface.rest_normals()[i];
     const Eigen::Vector3d in_bone = bone_from_hand * position.cast<double>();
     const Eigen::Vector3d facing = bone_from_hand.rotation() * normal.cast<double>();
-    Vector3f color = skin_at(tones()[static_cast<std::size_t>(tone)], anatomy, bone,
-                             in_bone.cast<float>(), facing.cast<float>());
+    Vector3f color = skin_at(colors_of(tone), anatomy, bone, position.y(), in_bone.cast<float>(),
+                             facing.cast<float>());
     color *= 1 - palm_lines_at(anatomy, position, normal);
     colors.push_back(color);
   }

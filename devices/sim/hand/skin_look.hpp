@@ -1,22 +1,15 @@
 // The colours of skin, nails and sleeve, and how light falls on a posed hand.
 #pragma once
 
-#include <optional>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "devices/sim/hand/hand_surface.hpp"
+#include "devices/sim/hand/skin_tone.hpp"
 #include "devices/sim/world.hpp"
 
 namespace armsreach::sim {
-
-enum class SkinTone { pale, light, medium, tan, brown, dark };
-inline constexpr int kSkinToneCount = 6;
-std::string_view name(SkinTone tone);
-std::optional<SkinTone> skin_tone_named(std::string_view name);
 
 // Of every vertex: sRGB 0..1, red first.
 std::vector<Eigen::Vector3f> colors_of(const HandSurface& surface, SkinTone tone,

@@ -1,0 +1,34 @@
+// The hands of a simulated world: drawn into its exact images, with what they hold and what is true
+// of them.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "devices/sim/hand/hand_painter.hpp"
+#include "devices/sim/holding.hpp"
+#include "devices/sim/world.hpp"
+#include "devices/sim/world_renderer.hpp"
+#include "vision/core/camera.hpp"
+
+namespace armsreach::sim {
+
+class HandStage {
+ public:
+  HandStage(const World& world, const Camera& camera,
+            std::function<Pose(double)> world_from_camera);
+
+  std::vector<PlacedThing> held(double time) const { return holding_.at(time); }
+  std::vector<HandTruth> truth(double time) const;
+  // Over what the camera sees at that time; returns what of the hands is seen.
+  Raster::Images draw(double time, ExactImages& images);
+
+ private:
+  Light light_;
+  std::function<Pose(double)> world_from_camera_;
+  HandPainter painter_;
+  Raster raster_;
+  Holding holding_;
+};
+
+}  // namespace armsreach::sim

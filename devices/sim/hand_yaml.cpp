@@ -1,0 +1,96 @@
+#include "devices/sim/hand_yaml.hpp"
+
+#include <numbers>
+
+#include <yaml-cpp/yaml.h>
+
+#include "devices/sim/yaml_map.hpp"
+
+namespace armsreach::sim {
+namespace {
+
+constexpr double kRadians = std::numbers::pi / 180;
+
+// One of two words.
+bool is_second(YamlMap& map, const std::string& key, const std::string& first,
+               const std::string& second) {
+  const std::string word = map.text(key);
+  if (word != first && word != second)
+    throw Complaint{"'" + map.path(key) + "' is neither " + first + " nor " + second};
+  return word == second;
+}
+
+HandKey key_from(YamlMap map) {
+  HandKey key;
+  key.time = map.number("t", 0, 1e6);
+  const std::string pose = map.text("pose");
+  const auto gesture = gesture_named(pose);
+  if (!gesture) {
+    std::string names;
+    for (int i = 0; i < kGestureCount; ++i)
+      names += (i ? ", " : "") + std::string(name(static_cast<Gesture>(i)));
+    throw Complaint{"'" + map.path("pose") + "': there is no '" + pose + "' among " + names};
+  }
+  key.gesture = *gesture;
+  key.at = map.vector<3>("at");
+  if (map.find("turn_deg")) key.turn = kRadians * map.vector<3>("turn_deg");
+  if (map.find("wrist_deg")) {
+    const Eigen::Vector2d wrist = kRadians * map.vector<2>("wrist_deg");
+    key.wrist_flexion = wrist[0];
+    key.wrist_deviation = wrist[1];
+  }
+  if (map.find("hold")) key.hold = map.text("hold");
+  map.refuse_others();
+  return key;
+}
+
+HandDescription hand_from(YamlMap map) {
+  HandDescription hand;
+  hand.left = is_second(map, "side", "right", "left");
+  hand.frame = is_second(map, "frame", "camera", "world") ? HandFrame::world : HandFrame::camera;
+  hand.seed = static_cast<std::uint64_t>(map.number("seed", 0, 1e15, 1));
+  if (map.find("skin")) {
+    const std::string skin = map.text("skin");
+    const auto tone = skin_tone_named(skin);
+    if (!tone) throw Complaint{"'" + map.path("skin") + "': there is no skin '" + skin + "'"};
+    hand.skin = *tone;
+  }
+  hand.sleeve = static_cast<bool>(map.find("sleeve"));
+  if (hand.sleeve) hand.sleeve_color = map.color("sleeve");
+  const YAML::Node keys = map.need("keys");
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const HandKey key = key_from({keys[i], map.path("keys[" + std::to_string(i) + "]")});
+    if (!hand.keys.empty() && key.time <= hand.keys.back().time)
+      throw Complaint{"the times of '" + map.path("keys") + "' do not increase"};
+    hand.keys.push_back(key);
+  }
+  if (hand.keys.empty()) throw Complaint{"'" + map.path("keys") + "' is empty"};
+  map.refuse_others();
+  return hand;
+}
+
+}  // namespace
+
+std::vector<HandDescription> hands_from(const YAML::Node& list, const std::string& name) {
+  if (!list.IsSequence()) throw Complaint{"'" + name + "' is not a list"};
+  std::vector<HandDescription> hands;
+  for (std::size_t i = 0; i < list.size(); ++i)
+    hands.push_back(hand_from({list[i], name + "[" + std::to_string(i) + "]"}));
+  return hands;
+}
+
+Result<std::vector<HandDescription>> read_hand_script(std::istream& in, const std::string& where) {
+  const std::string remedy = "assets/hands/gestures.yaml shows what a script can have";
+  try {
+    YamlMap map(YAML::Load(in), "");
+    std::vector<HandDescription> hands = hands_from(map.need("hands"), "hands");
+    map.refuse_others();
+    return hands;
+  } catch (const Complaint& complaint) {
+    return Error{complaint.what, where, remedy};
+  } catch (const YAML::Exception& e) {
+    return Error{"not readable as YAML: " + std::string(e.what()), where, remedy};
+  }
+}
+
+}  // namespace armsreach::sim

@@ -1,0 +1,32 @@
+// Codec of what simulated hands do. A list of
+//
+//   {side: right | left, seed, skin: pale | light | medium | tan | brown | dark, sleeve: "#rrggbb",
+//    frame: camera | world,
+//    keys: [{t, pose: NAME, at: [x, y, z], turn_deg: [x, y, z], wrist_deg: [flexion, deviation],
+//            hold: THING}, ...]}
+//
+// in seconds and metres; `pose` is point, L, open, fist, grasp, pinch or a numeral from 0 to 9.
+// What places and turns mean is in hand/hand_script.hpp; seed, skin, sleeve, turn_deg, wrist_deg
+// and hold may be left out. A file of its own has the list under `hands`.
+#pragma once
+
+#include <istream>
+#include <string>
+#include <vector>
+
+#include "devices/sim/hand/hand_script.hpp"
+#include "vision/core/result.hpp"
+
+namespace YAML {
+class Node;
+}
+
+namespace armsreach::sim {
+
+// For readers of files that have hands among other things: throws Complaint (yaml_map.hpp).
+std::vector<HandDescription> hands_from(const YAML::Node& list, const std::string& name);
+
+// `where` names the stream in errors.
+Result<std::vector<HandDescription>> read_hand_script(std::istream& in, const std::string& where);
+
+}  // namespace armsreach::sim
