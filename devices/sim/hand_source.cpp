@@ -15,7 +15,7 @@
 #include "devices/sim/hand_layer.hpp"
 #include "devices/sim/hand_yaml.hpp"
 #include "devices/sim/picture_light.hpp"
-#include "devices/sim/sensor.hpp"
+#include "devices/sim/depth_sensor.hpp"
 #include "render/assets.hpp"
 
 namespace armsreach {
