@@ -15,6 +15,7 @@
 #include "devices/sim/hand_layer.hpp"
 #include "devices/sim/hand_yaml.hpp"
 #include "devices/sim/picture_light.hpp"
+#include "devices/sim/color_sensor.hpp"
 #include "devices/sim/depth_sensor.hpp"
 #include "render/assets.hpp"
 
@@ -31,8 +32,9 @@ SensorDescription sensor_of(const Camera& camera) {
   sensor.height = camera.height;
   sensor.nearest = 0;
   sensor.farthest = 100;
-  sensor.color_noise = kColorNoise;
-  sensor.exposure_drift = 0;
+  sensor.color = kCleanColor;
+  sensor.color.noise = kColorNoise;
+  sensor.color.sharpness = ColorDescription().sharpness;
   return sensor;
 }
 
