@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -10,6 +11,7 @@
 #include <Eigen/Core>
 
 #include "devices/sim/hand/hand_script.hpp"
+#include "devices/sim/infrared/infrared_description.hpp"
 #include "vision/core/pose.hpp"
 
 namespace armsreach::sim {
@@ -136,6 +138,7 @@ struct World {
   PathDescription path;
   SensorDescription sensor;
   std::vector<HandDescription> hands;
+  std::optional<InfraredDescription> infrared;
 };
 
 }  // namespace armsreach::sim

@@ -12,6 +12,7 @@
 
 #include "devices/sim/color_yaml.hpp"
 #include "devices/sim/hand_yaml.hpp"
+#include "devices/sim/infrared/infrared_yaml.hpp"
 #include "devices/sim/yaml_map.hpp"
 
 namespace armsreach::sim {
@@ -200,6 +201,12 @@ World world_from(const YAML::Node& root) {
         thing_from({things[i], "things[" + std::to_string(i) + "]"}, world.materials));
   }
   if (const YAML::Node hands = map.find("hands")) world.hands = hands_from(hands, "hands");
+  if (const YAML::Node node = map.find("infrared")) {
+    world.infrared = infrared_from(node, "infrared");
+    const bool right = !world.hands.empty() && !world.hands.front().left &&
+                       world.hands.front().frame == HandFrame::world;
+    if (!right) throw Complaint{"'infrared' needs a right hand in the world's frame as the first"};
+  }
   for (const HandDescription& hand : world.hands) refuse_unknown_things(hand, world.things);
   map.refuse_others();
   return world;

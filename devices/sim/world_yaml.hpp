@@ -10,6 +10,7 @@
 //   materials: {NAME: {pattern, colors: ["#rrggbb", ...], size | fit, shine, infrared}, ...}
 //   things: [{name, SHAPE, at: [x, y, z], turn_deg: [x, y, z], material}, ...]
 //   hands: none, or as in hand_yaml.hpp
+//   infrared: none, or as in infrared/infrared_yaml.hpp
 //
 // in metres and seconds, with angles in degrees where the key says so. SHAPE is one of box: [x, y,
 // z], cylinder: [radius, height], panel: [x, y], mug: [radius, height, wall], lathe: [[radius, z],

@@ -9,7 +9,7 @@
 
 namespace armsreach::sim {
 
-const std::vector<std::string>& world_names();  // "bench", "near"
+const std::vector<std::string>& world_names();  // "bench", "near", ...
 Result<World> load_world(const std::string& name);
 
 }  // namespace armsreach::sim

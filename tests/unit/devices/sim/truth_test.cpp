@@ -104,7 +104,7 @@ TEST_P(Truth, TheCameraKeepsItsDistanceAndLooksAtTheThings) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Worlds, Truth, testing::ValuesIn(world_names()),
+INSTANTIATE_TEST_SUITE_P(Worlds, Truth, testing::Values("bench", "near"),
                          [](const auto& one) { return one.param; });
 
 }  // namespace
