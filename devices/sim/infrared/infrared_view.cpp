@@ -41,7 +41,6 @@ Vector3f decoded(const cv::Vec3b& code) {
 struct PlacedMesh {
   std::vector<Vector3f> positions;
   std::vector<Vector3f> codes;
-  InfraredHand::Triangles triangles;
 
   PlacedMesh(const Pose& camera_from_mesh, std::span<const Vector3f> points,
              std::span<const Vector3f> normals) {
@@ -51,6 +50,33 @@ struct PlacedMesh {
     for (const Vector3f& normal : normals) codes.push_back(coded(turn * normal));
   }
 };
+
+// A lens bends long edges and the depth along them: things are drawn in triangles too small for
+// that to show.
+void add_split(const std::array<std::uint32_t, 3>& triangle, std::vector<Vector3f>& points,
+               std::vector<Vector3f>& normals, InfraredHand::Triangles& small) {
+  constexpr float kLongest = 0.06F;  // m
+  std::size_t longest = 0;
+  float length = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const float side = (points[triangle[i]] - points[triangle[(i + 1) % 3]]).norm();
+    if (side <= length) continue;
+    length = side;
+    longest = i;
+  }
+  if (length <= kLongest) {
+    small.push_back(triangle);
+    return;
+  }
+  const std::uint32_t a = triangle[longest];
+  const std::uint32_t b = triangle[(longest + 1) % 3];
+  const std::uint32_t c = triangle[(longest + 2) % 3];
+  const std::uint32_t middle = static_cast<std::uint32_t>(points.size());
+  points.push_back(0.5F * (points[a] + points[b]));
+  normals.push_back((normals[a] + normals[b]).normalized());
+  add_split({a, middle, c}, points, normals, small);
+  add_split({middle, b, c}, points, normals, small);
+}
 
 double facing_angle(const Vector3d& point_in_camera, const Vector3d& normal) {
   return std::acos(std::clamp(normal.dot(-point_in_camera.normalized()), -1.0, 1.0));
@@ -112,23 +138,26 @@ void InfraredView::clear() {
 
 void InfraredView::draw_things(const World& world) {
   const WorldMesh mesh = mesh_of(world);
-  std::vector<Vector3f> points;
-  std::vector<Vector3f> normals;
-  for (const WorldVertex& vertex : mesh.vertices) {
-    points.push_back(vertex.position);
-    normals.push_back(vertex.normal);
-  }
   for (std::size_t i = 0; i < world.things.size(); ++i) {
     const Thing& thing = world.things[i];
     const Material& material = world.materials[static_cast<std::size_t>(thing.material)];
     const Pose camera_from_thing =
         description_.world_from_camera.inverse() * thing.world_from_thing;
-    PlacedMesh placed(camera_from_thing, points, normals);
+    std::vector<Vector3f> points;
+    std::vector<Vector3f> normals;
+    InfraredHand::Triangles triangles;
     const auto* corners = mesh.indices.data() + mesh.things[i].first;
-    for (std::uint32_t k = 0; k < mesh.things[i].count; k += 3)
-      placed.triangles.push_back({corners[k], corners[k + 1], corners[k + 2]});
+    for (std::uint32_t k = 0; k < mesh.things[i].count; k += 3) {
+      const std::uint32_t first = static_cast<std::uint32_t>(points.size());
+      for (const std::uint32_t corner : {corners[k], corners[k + 1], corners[k + 2]}) {
+        points.push_back(mesh.vertices[corner].position);
+        normals.push_back(mesh.vertices[corner].normal);
+      }
+      add_split({first, first + 1, first + 2}, points, normals, triangles);
+    }
+    const PlacedMesh placed(camera_from_thing, points, normals);
     raster_.clear();
-    raster_.draw({placed.positions, placed.codes, placed.triangles, false, 1});
+    raster_.draw({placed.positions, placed.codes, triangles, false, 1});
     shade(raster_.images(), {{static_cast<float>(material.infrared * (1 - material.shine)),
                               static_cast<float>(material.shine)}});
   }
@@ -138,16 +167,16 @@ void InfraredView::draw_hand(const InfraredHand& hand, const InfraredHand::Momen
   const Pose camera_from_hand = description_.world_from_camera.inverse() * moment.world_from_hand;
   const PlacedMesh skin(camera_from_hand, moment.surface.positions, moment.surface.normals);
   std::vector<PlacedMesh> carriers;
-  for (const WornPart& part : moment.worn.carriers) {
+  for (const WornPart& part : moment.worn.carriers)
     carriers.emplace_back(camera_from_hand, part.positions, part.normals);
-    carriers.back().triangles = part.triangles;
-  }
   raster_.clear();
   std::uint8_t id = 1;
   for (const Cover cover : {Cover::skin, Cover::glove, Cover::sleeve})
     raster_.draw({skin.positions, skin.codes, hand.triangles(cover), false, id++});
-  for (const PlacedMesh& carrier : carriers)
-    raster_.draw({carrier.positions, carrier.codes, carrier.triangles, false, id});
+  for (std::size_t i = 0; i < carriers.size(); ++i) {
+    raster_.draw(
+        {carriers[i].positions, carriers[i].codes, moment.worn.carriers[i].triangles, false, id});
+  }
   shade(raster_.images(),
         {{kSkinAlbedo, 0}, {kGloveAlbedo, 0}, {kSleeveAlbedo, 0}, {kCarrierAlbedo, 0}});
 }
