@@ -12,6 +12,7 @@ layout(location = 1) out float depth_out;
 
 void main() {
   vec3 light = light_range * texture(light_map, light_at).rgb;
-  color_out = vec4(with_highlight(texture(pattern, texture_at).rgb * light, light), infrared);
+  color_out = vec4(with_highlight(texture(pattern, texture_at).rgb * light, light),
+                   sent_back(infrared));
   depth_out = depth;
 }

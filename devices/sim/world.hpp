@@ -61,9 +61,9 @@ struct Material {
   std::string name;
   Pattern pattern = Pattern::plain;
   std::vector<Color> colors;
-  double size = 1;      // m that one repeat of the pattern covers
-  bool fit = false;     // the pattern covers each face just once instead
-  double shine = 0;     // 0 dull .. 1 glazed: strength of the highlight
+  double size = 1;   // m that one repeat of the pattern covers
+  bool fit = false;  // the pattern covers each face just once instead
+  double shine = 0;  // 0 dull .. 1 glazed: strength of the highlight, and of a depth camera's glare
   double infrared = 1;  // share of the depth camera's light that comes back; 0: no depth at all
 };
 

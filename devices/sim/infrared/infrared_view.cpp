@@ -105,6 +105,12 @@ bool inside(const std::vector<Eigen::Vector2d>& outline, const Eigen::Vector2d& 
 // The share of a pixel that lies in a convex outline.
 double covered(const std::vector<Eigen::Vector2d>& outline, int x, int y) {
   constexpr int kSide = 8;
+  const auto corner_inside = [&](double dx, double dy) {
+    return inside(outline, Eigen::Vector2d(x + dx, y + dy));
+  };
+  if (corner_inside(-0.5, -0.5) && corner_inside(0.5, -0.5) && corner_inside(0.5, 0.5) &&
+      corner_inside(-0.5, 0.5))
+    return 1;
   int count = 0;
   for (int i = 0; i < kSide * kSide; ++i) {
     const Eigen::Vector2d place((i % kSide + 0.5) / kSide - 0.5, (i / kSide + 0.5) / kSide - 0.5);
@@ -122,7 +128,15 @@ double tape_returns(double incidence) {
 }
 
 InfraredView::InfraredView(const World& world, const InfraredDescription& description)
-    : description_(description), raster_(description.camera) {
+    : description_(description),
+      raster_(description.camera),
+      rays_(description.camera.height, description.camera.width, CV_32FC2) {
+  for (int y = 0; y < rays_.rows; ++y) {
+    for (int x = 0; x < rays_.cols; ++x) {
+      const Vector3d ray = unproject(description.camera, Eigen::Vector2d(x, y));
+      rays_.at<cv::Vec2f>(y, x) = {static_cast<float>(ray.x()), static_cast<float>(ray.y())};
+    }
+  }
   const cv::Size size(description.camera.width, description.camera.height);
   light_ = cv::Mat::zeros(size, CV_32F);
   depth_ = cv::Mat(size, CV_32F, cv::Scalar(kUnknown));
@@ -182,7 +196,6 @@ void InfraredView::draw_hand(const InfraredHand& hand, const InfraredHand::Momen
 }
 
 void InfraredView::shade(const Raster::Images& images, const std::vector<Look>& looks) {
-  const Camera& camera = description_.camera;
   const float white = static_cast<float>(description_.white_level);
   for (int y = 0; y < images.place.height; ++y) {
     for (int x = 0; x < images.place.width; ++x) {
@@ -193,7 +206,8 @@ void InfraredView::shade(const Raster::Images& images, const std::vector<Look>& 
       if (id == 0 || !(z > 0) || z >= behind) continue;
       behind = z;
       const Look& look = looks[static_cast<std::size_t>(id) - 1];
-      const Vector3f point = z * unproject(camera, Eigen::Vector2d(at.x, at.y)).cast<float>();
+      const cv::Vec2f& ray = rays_.at<cv::Vec2f>(at);
+      const Vector3f point = z * Vector3f(ray[0], ray[1], 1);
       const float distance = point.norm();
       const float facing =
           std::max(0.0F, decoded(images.color.at<cv::Vec3b>(y, x)).dot(-point / distance));

@@ -43,6 +43,7 @@ class InfraredView {
 
   InfraredDescription description_;
   Raster raster_;
+  cv::Mat rays_;  // CV_32FC2: x and y of the ray of every pixel, z = 1
   cv::Mat still_light_;
   cv::Mat still_depth_;
   cv::Mat light_;
