@@ -14,7 +14,13 @@ bool sees_anything(const cv::Mat& depth) {
   return 10 * known > depth.total();
 }
 
-// Coarser by one level, and with iterations enough to come from where the motion ends up.
+AlignerOptions usual(const TrackerOptions& options) {
+  AlignerOptions aligner = options.aligner;
+  if (aligner.iterations.empty()) aligner.iterations = default_iterations(options.width);
+  return aligner;
+}
+
+// Coarser by one level, and with iterations enough to come from farther away.
 AlignerOptions searching(AlignerOptions options) {
   for (int& iterations : options.iterations) iterations = std::max(iterations, 10);
   options.iterations.push_back(20);
@@ -23,10 +29,18 @@ AlignerOptions searching(AlignerOptions options) {
 
 }  // namespace
 
+std::vector<int> default_iterations(int width) {
+  if (width < 120) return {5, 3};
+  std::vector<int> iterations{3, 4};
+  for (; width >= 240; width /= 2) iterations.push_back(4);
+  iterations.push_back(3);
+  return iterations;
+}
+
 Tracker::Tracker(TrackerOptions options)
     : options_(std::move(options)),
-      aligner_(options_.aligner),
-      searching_aligner_(searching(options_.aligner)),
+      aligner_(usual(options_)),
+      searching_aligner_(searching(aligner_.options())),
       motion_(options_.motion),
       verdict_(options_.aligner.alpha) {}
 
@@ -35,7 +49,8 @@ TrackedFrame Tracker::reduced(const FramePtr& frame) {
     reducer_.emplace(frame->sensor, options_.width);
     motion_.start(options_.start.value_or(Pose()), frame->time);
   }
-  ReducedFrame images = reducer_->reduce(*frame);
+  sensor_noise_.learn(frame->depth);
+  ReducedFrame images = reducer_->reduce(*frame, sensor_noise_.k());
   TrackedFrame tracked;
   tracked.frame = frame;
   tracked.camera = reducer_->camera();
