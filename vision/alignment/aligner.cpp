@@ -200,6 +200,7 @@ void Aligner::weigh(const Level& camera, const Level& reference, AlignmentResult
           ? residuals(camera, reference, reference_from_camera, -result.intensity_offset)
           : residuals(reference, camera, reference_from_camera.inverse(), result.intensity_offset);
   result.scales = scales(found, size, pixel_noise(camera));
+  result.alpha = own_depth ? options_.alpha : 0;
   float* const weights = found.depth_gX;  // no longer needed
   kernels_.weigh(found, size, depth_weighting(result.scales), intensity_weighting(result.scales),
                  weights);
@@ -214,6 +215,7 @@ void Aligner::weigh(const Level& camera, const Level& reference, AlignmentResult
     }
     return;
   }
+  result.scales.depth = 0;
   const Camera& model = camera.camera();
   for (int at = 0; at < size; ++at) {
     if (!(weights[at] >= 0)) continue;

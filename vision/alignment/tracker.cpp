@@ -41,8 +41,7 @@ Tracker::Tracker(TrackerOptions options)
     : options_(std::move(options)),
       aligner_(usual(options_)),
       searching_aligner_(searching(aligner_.options())),
-      motion_(options_.motion),
-      verdict_(options_.aligner.alpha) {}
+      motion_(options_.motion) {}
 
 TrackedFrame Tracker::reduced(const FramePtr& frame) {
   if (!reducer_) {
@@ -54,7 +53,7 @@ TrackedFrame Tracker::reduced(const FramePtr& frame) {
   TrackedFrame tracked;
   tracked.frame = frame;
   tracked.camera = reducer_->camera();
-  tracked.depth = std::move(images.depth);
+  if (sees_anything(images.depth)) tracked.depth = std::move(images.depth);
   tracked.intensity = std::move(images.intensity);
   camera_.assign(tracked.camera, tracked.depth, tracked.intensity,
                  static_cast<int>(searching_aligner_.options().iterations.size()));
@@ -69,13 +68,14 @@ TrackedFrame Tracker::track(const FramePtr& frame, const ReferenceViewPtr& map_r
   if (unknown_world && options_.start) {
     motion_.start(*options_.start, frame->time);  // however long it took to see something
     tracked.world_from_camera = *options_.start;
-    if (sees_anything(tracked.depth)) keep_as_reference(tracked, nullptr);
+    keep_as_reference(tracked, nullptr);
     return tracked;
   }
   if (!unknown_world) {
     Attempt best = best_attempt(frame->time);
     report(best, tracked);
     if (best.trusted) {
+      lost_ = false;
       tracked.state = TrackingState::tracking;
       motion_.update(best.world_from_camera, frame->time);
       verdict_.learn(best.alignment);
@@ -84,6 +84,7 @@ TrackedFrame Tracker::track(const FramePtr& frame, const ReferenceViewPtr& map_r
     }
   }
   if (proposed && relocalise(proposed, tracked)) return tracked;
+  lost_ = true;
   tracked.state = TrackingState::lost;
   tracked.world_from_camera = motion_.predicted(frame->time);
   motion_.coast(frame->time);
@@ -118,48 +119,52 @@ void Tracker::take(const ReferenceViewPtr& view, ReferenceViewPtr& taken,
 bool Tracker::relocalise(const ReferenceViewPtr& proposed, TrackedFrame& tracked) {
   take(proposed, proposed_view_, proposed_);
   Attempt found;
-  found.reference = &proposed_;
   // From where the view was drawn, and, should the camera have stayed, from where it was last.
   for (const Pose& start : {proposed_.world_from_camera, motion_.measured()}) {
-    found.alignment = searching_aligner_.align(camera_, proposed_.pyramid,
-                                               proposed_.world_from_camera.inverse() * start, 0);
+    found = attempt(searching_aligner_, proposed_, start);
     found.trusted = verdict_.confirms(found.alignment, pixels());
     if (found.trusted) break;
   }
   if (!found.trusted) return false;
-  found.world_from_camera = proposed_.world_from_camera * found.alignment.reference_from_camera;
   report(found, tracked);
+  lost_ = false;
   tracked.state = TrackingState::relocalised;
   motion_.start(tracked.world_from_camera, tracked.frame->time);
   std::swap(map_, proposed_);
   proposed_view_ = nullptr;
+  own_ = {};
   keep_as_reference(tracked, nullptr);
   return true;
 }
 
 // The map before the tracker's own frame, where the camera is predicted before where it was seen
-// last; the first that is trusted, else the first.
+// last; then the same from farther away. The first that is trusted, else the first.
 Tracker::Attempt Tracker::best_attempt(Timestamp time) {
   std::optional<Attempt> first;
-  for (const Reference* reference : {&map_, &own_}) {
-    if (reference->empty()) continue;
-    for (const Pose& start : {motion_.predicted(time), motion_.measured()}) {
-      Attempt tried = attempt(*reference, start, time);
-      if (tried.trusted) return tried;
-      if (!first) first = std::move(tried);
+  for (Aligner* aligner : {&aligner_, &searching_aligner_}) {
+    for (const Reference* reference : {&map_, &own_}) {
+      if (reference->empty()) continue;
+      for (const Pose& start : {motion_.predicted(time), motion_.measured()}) {
+        Attempt tried = attempt(*aligner, *reference, start);
+        // A camera that was lost is believed only where it fits closely.
+        tried.trusted = (lost_ ? verdict_.confirms(tried.alignment, pixels())
+                               : verdict_.trusts(tried.alignment, pixels())) &&
+                        motion_.plausible(tried.world_from_camera, time);
+        if (tried.trusted) return tried;
+        if (!first) first = std::move(tried);
+      }
     }
   }
   return std::move(*first);
 }
 
-Tracker::Attempt Tracker::attempt(const Reference& reference, const Pose& start, Timestamp time) {
+Tracker::Attempt Tracker::attempt(Aligner& aligner, const Reference& reference,
+                                  const Pose& start) const {
   Attempt out;
-  out.alignment = aligner_.align(camera_, reference.pyramid,
-                                 reference.world_from_camera.inverse() * start, intensity_offset_);
+  out.alignment = aligner.align(camera_, reference.pyramid,
+                                reference.world_from_camera.inverse() * start, intensity_offset_);
   out.world_from_camera = reference.world_from_camera * out.alignment.reference_from_camera;
   out.reference = &reference;
-  out.trusted =
-      verdict_.trusts(out.alignment, pixels()) && motion_.plausible(out.world_from_camera, time);
   return out;
 }
 
