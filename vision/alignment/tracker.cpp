@@ -158,8 +158,10 @@ Tracker::Attempt Tracker::attempt(const Reference& reference, const Pose& start,
                                  reference.world_from_camera.inverse() * start, intensity_offset_);
   out.world_from_camera = reference.world_from_camera * out.alignment.reference_from_camera;
   out.reference = &reference;
-  out.trusted =
-      verdict_.trusts(out.alignment, pixels()) && motion_.plausible(out.world_from_camera, time);
+  // Who has not been seen for a while may be anywhere: then the fit alone must convince.
+  const bool fits = motion_.recent(time) ? verdict_.trusts(out.alignment, pixels())
+                                         : verdict_.confirms(out.alignment, pixels());
+  out.trusted = fits && motion_.plausible(out.world_from_camera, time);
   return out;
 }
 
