@@ -75,7 +75,6 @@ TrackedFrame Tracker::track(const FramePtr& frame, const ReferenceViewPtr& map_r
     Attempt best = best_attempt(frame->time);
     report(best, tracked);
     if (best.trusted) {
-      lost_ = false;
       tracked.state = TrackingState::tracking;
       motion_.update(best.world_from_camera, frame->time);
       verdict_.learn(best.alignment);
@@ -84,7 +83,6 @@ TrackedFrame Tracker::track(const FramePtr& frame, const ReferenceViewPtr& map_r
     }
   }
   if (proposed && relocalise(proposed, tracked)) return tracked;
-  lost_ = true;
   tracked.state = TrackingState::lost;
   tracked.world_from_camera = motion_.predicted(frame->time);
   motion_.coast(frame->time);
@@ -127,7 +125,6 @@ bool Tracker::relocalise(const ReferenceViewPtr& proposed, TrackedFrame& tracked
   }
   if (!found.trusted) return false;
   report(found, tracked);
-  lost_ = false;
   tracked.state = TrackingState::relocalised;
   motion_.start(tracked.world_from_camera, tracked.frame->time);
   std::swap(map_, proposed_);
@@ -146,16 +143,20 @@ Tracker::Attempt Tracker::best_attempt(Timestamp time) {
       if (reference->empty()) continue;
       for (const Pose& start : {motion_.predicted(time), motion_.measured()}) {
         Attempt tried = attempt(*aligner, *reference, start);
-        // A camera that was lost is believed only where it fits closely.
-        tried.trusted = (lost_ ? verdict_.confirms(tried.alignment, pixels())
-                               : verdict_.trusts(tried.alignment, pixels())) &&
-                        motion_.plausible(tried.world_from_camera, time);
+        tried.trusted = follows(tried, time);
         if (tried.trusted) return tried;
         if (!first) first = std::move(tried);
       }
     }
   }
   return std::move(*first);
+}
+
+bool Tracker::follows(const Attempt& tried, Timestamp time) const {
+  // Who has not been seen for a while may be anywhere: then the fit alone must convince.
+  const bool fits = motion_.recent(time) ? verdict_.trusts(tried.alignment, pixels())
+                                         : verdict_.confirms(tried.alignment, pixels());
+  return fits && motion_.plausible(tried.world_from_camera, time);
 }
 
 Tracker::Attempt Tracker::attempt(Aligner& aligner, const Reference& reference,

@@ -76,6 +76,7 @@ class Tracker {
   // Makes a reference of a view, unless it was made of `taken`, the one before.
   void take(const ReferenceViewPtr& view, ReferenceViewPtr& taken, Reference& reference) const;
   Attempt best_attempt(Timestamp time);
+  bool follows(const Attempt& tried, Timestamp time) const;
   Attempt attempt(Aligner& aligner, const Reference& reference, const Pose& start) const;
   // Tries the proposed view; when it fits, the world as it was known is given up for it.
   bool relocalise(const ReferenceViewPtr& proposed, TrackedFrame& tracked);
@@ -97,7 +98,6 @@ class Tracker {
   ReferenceViewPtr map_view_;       // given last; map_ was made from it, or proposed since
   ReferenceViewPtr proposed_view_;  // that proposed_ was made from
   double intensity_offset_ = 0;
-  bool lost_ = false;
 };
 
 }  // namespace armsreach
