@@ -9,7 +9,7 @@
 namespace armsreach::sim {
 
 const std::vector<std::string>& world_names() {
-  static const std::vector<std::string> names{"bench", "near"};
+  static const std::vector<std::string> names{"bench", "near", "assembly"};
   return names;
 }
 
