@@ -89,6 +89,8 @@ Result<cv::Mat> decode(const std::filesystem::path& file, int flags) {
   return image;
 }
 
+constexpr float kSaturated = std::numeric_limits<std::uint16_t>::max();
+
 std::string size_text(const cv::Size& size) {
   return std::to_string(size.width) + "x" + std::to_string(size.height);
 }
@@ -108,20 +110,38 @@ Result<cv::Mat> read_depth_image(const std::filesystem::path& file, double units
                      std::to_string(bits) + " bits",
                  file.string(), "depth images are 16-bit PNG files with one channel"};
   }
-  constexpr float kSaturated = std::numeric_limits<std::uint16_t>::max();
+  return depth_from_units(*raw, units_per_metre);
+}
+
+cv::Mat depth_from_units(const cv::Mat& units, double units_per_metre) {
   constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
   const auto metres_per_unit = static_cast<float>(1 / units_per_metre);
-  cv::Mat depth(raw->size(), CV_32F);
+  cv::Mat depth(units.size(), CV_32F);
   for (int y = 0; y < depth.rows; ++y) {
-    const auto* from = raw->ptr<std::uint16_t>(y);
+    const auto* from = units.ptr<std::uint16_t>(y);
     auto* to = depth.ptr<float>(y);
     for (int x = 0; x < depth.cols; ++x) {
       // Choosing the factor and not the product lets GCC vectorise this: 0.06 instead of 0.6 ms.
-      const float units = from[x];
-      to[x] = units * (units == 0 || units == kSaturated ? kUnknown : metres_per_unit);
+      const float one = from[x];
+      to[x] = one * (one == 0 || one == kSaturated ? kUnknown : metres_per_unit);
     }
   }
   return depth;
+}
+
+cv::Mat units_from_depth(const cv::Mat& depth, double units_per_metre) {
+  const auto scale = static_cast<float>(units_per_metre);
+  cv::Mat units(depth.size(), CV_16U);
+  for (int y = 0; y < depth.rows; ++y) {
+    const auto* from = depth.ptr<float>(y);
+    auto* to = units.ptr<std::uint16_t>(y);
+    for (int x = 0; x < depth.cols; ++x) {
+      const float rounded = from[x] * scale + 0.5F;
+      // False for NaN too.
+      to[x] = rounded < kSaturated ? static_cast<std::uint16_t>(static_cast<int>(rounded)) : 0;
+    }
+  }
+  return units;
 }
 
 Status check_size(const cv::Size& size, const Camera& camera, const std::string& kind,

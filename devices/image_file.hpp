@@ -17,6 +17,12 @@ Result<cv::Mat> read_color_image(const std::filesystem::path& file);
 // 16-bit single-channel file to CV_32F metres. 0 and the saturated 65535 are unknown: NaN.
 Result<cv::Mat> read_depth_image(const std::filesystem::path& file, double units_per_metre);
 
+// Depths as such a file holds them, CV_16UC1: rounded to whole units; 0 where they are unknown or
+// too far for the format.
+cv::Mat units_from_depth(const cv::Mat& depth, double units_per_metre);
+// And back: what reading such a file gives.
+cv::Mat depth_from_units(const cv::Mat& units, double units_per_metre);
+
 // That images have their camera's size; `kind` ("colour", "depth") and `where` are for the error.
 Status check_size(const cv::Size& size, const Camera& camera, const std::string& kind,
                   const std::string& where);

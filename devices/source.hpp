@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "devices/actuator.hpp"
 #include "vision/core/event.hpp"
 #include "vision/core/frame.hpp"
 #include "vision/core/result.hpp"
@@ -25,6 +26,8 @@ class Source {
   // for the one after it. Blocks at most as long as a device takes; `stop` ends that wait.
   virtual Result<FramePtr> next() = 0;
   virtual void stop() {}  // from any thread: a blocked or later next() returns null soon
+  // What is built together with the sensor, such as the gimbal below a simulated camera.
+  virtual std::vector<std::shared_ptr<Actuator>> actuators() const { return {}; }
   // What was guessed or given up on while opening or reading, e.g. "no calibration: assuming 60
   // deg".
   virtual Events take_events() { return {}; }

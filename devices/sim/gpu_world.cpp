@@ -3,7 +3,7 @@
 namespace armsreach::sim {
 
 GpuWorld::GpuWorld(const render::Gl& gl, const WorldMesh& mesh)
-    : gl_(&gl), things_(mesh.things), array_(gl), vertices_(gl), indices_(gl) {
+    : gl_(&gl), parts_(mesh.parts), array_(gl), vertices_(gl), indices_(gl) {
   array_.bind();
   vertices_.bind(GL_ARRAY_BUFFER);
   gl.BufferData(GL_ARRAY_BUFFER,
@@ -24,8 +24,8 @@ GpuWorld::GpuWorld(const render::Gl& gl, const WorldMesh& mesh)
   attribute(3, 2, offsetof(WorldVertex, light));
 }
 
-void GpuWorld::draw(std::size_t thing) const {
-  const MeshRange& range = things_[thing];
+void GpuWorld::draw(std::size_t part) const {
+  const MeshRange& range = parts_[part];
   gl_->DrawElements(GL_TRIANGLES, static_cast<GLsizei>(range.count), GL_UNSIGNED_INT,
                     reinterpret_cast<const void*>(range.first * sizeof(std::uint32_t)));
 }

@@ -15,11 +15,11 @@ class GpuWorld {
   GpuWorld(const render::Gl& gl, const WorldMesh& mesh);
 
   void bind() const { array_.bind(); }
-  void draw(std::size_t thing) const;  // of the bound world
+  void draw(std::size_t part) const;  // of the bound world
 
  private:
   const render::Gl* gl_ = nullptr;
-  std::vector<MeshRange> things_;
+  std::vector<MeshRange> parts_;
   render::VertexArray array_;
   render::Buffer vertices_;
   render::Buffer indices_;

@@ -62,4 +62,16 @@ void lay_value(const Raster::Images& hands, int value, cv::Mat& image) {
   image(hands.place).setTo(value, hands.depth == hands.depth);
 }
 
+void lay_masks(const Raster::Images& hands, int things, cv::Mat& masks) {
+  if (hands.place.empty()) return;
+  cv::Mat part = masks(hands.place);
+  for (int y = 0; y < part.rows; ++y) {
+    for (int x = 0; x < part.cols; ++x) {
+      const int id = hands.ids.at<std::uint8_t>(y, x);
+      if (id > 0 && !std::isnan(hands.depth.at<float>(y, x)))
+        part.at<std::uint16_t>(y, x) = static_cast<std::uint16_t>(things + id);
+    }
+  }
+}
+
 }  // namespace armsreach::sim

@@ -20,5 +20,7 @@ void lay_color(const Raster::Images& hands, cv::Mat& image);
 void lay_depth(const Raster::Images& hands, cv::Mat& depth);
 // A value over those pixels of a CV_8U image.
 void lay_value(const Raster::Images& hands, int value, cv::Mat& image);
+// Their ids, after those of the scene's things, into a CV_16U image.
+void lay_masks(const Raster::Images& hands, int things, cv::Mat& masks);
 
 }  // namespace armsreach::sim

@@ -7,20 +7,20 @@
 namespace armsreach::sim {
 
 HandStage::HandStage(const World& world, const Camera& camera,
-                     std::function<Pose(double)> world_from_camera)
-    : light_(world.light),
-      world_from_camera_(std::move(world_from_camera)),
+                     std::function<Pose(double)> world_from_carrier)
+    : things_(world.things.size()),
+      light_(world.light),
+      world_from_carrier_(std::move(world_from_carrier)),
       painter_(world.hands),
       raster_(camera),
-      holding_(world, painter_.actors(), world_from_camera_) {}
+      holding_(world, painter_.actors(), world_from_carrier_) {}
 
 std::vector<HandTruth> HandStage::truth(double time) const {
-  return painter_.truth(time, world_from_camera_(time));
+  return painter_.truth(time, world_from_carrier_(time));
 }
 
-Raster::Images HandStage::draw(double time, ExactImages& images) {
-  const Pose world_from_camera = world_from_camera_(time);
-  painter_.set_time(time, world_from_camera);
+Raster::Images HandStage::draw(double time, const Pose& world_from_camera, ExactImages& images) {
+  painter_.set_time(time, world_from_carrier_(time));
   Lighting lighting;
   lighting.light = light_;
   lighting.eye = world_from_camera.translation().cast<float>();
@@ -29,6 +29,7 @@ Raster::Images HandStage::draw(double time, ExactImages& images) {
   lay_color(hands, images.color);
   lay_depth(hands, images.depth);
   lay_value(hands, kSkinReturns, images.returned);
+  lay_masks(hands, static_cast<int>(things_), images.masks);
   return hands;
 }
 

@@ -15,17 +15,20 @@ namespace armsreach::sim {
 
 class HandStage {
  public:
+  // `world_from_carrier`: where the camera would be at any time if no gimbal turned it; what hands
+  // before the camera are before.
   HandStage(const World& world, const Camera& camera,
-            std::function<Pose(double)> world_from_camera);
+            std::function<Pose(double)> world_from_carrier);
 
   std::vector<PlacedThing> held(double time) const { return holding_.at(time); }
   std::vector<HandTruth> truth(double time) const;
   // Over what the camera sees at that time; returns what of the hands is seen.
-  Raster::Images draw(double time, ExactImages& images);
+  Raster::Images draw(double time, const Pose& world_from_camera, ExactImages& images);
 
  private:
+  std::size_t things_;
   Light light_;
-  std::function<Pose(double)> world_from_camera_;
+  std::function<Pose(double)> world_from_carrier_;
   HandPainter painter_;
   Raster raster_;
   Holding holding_;

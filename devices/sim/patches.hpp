@@ -34,4 +34,8 @@ struct Patch {
 
 std::vector<Patch> patches_of(const Shape& shape);
 
+// A mug without its handle as a solid of revolution, and how far a point is from the handle's bar.
+std::vector<Eigen::Vector2d> mug_profile(const Mug& mug);
+double distance_to_mug_handle(const Mug& mug, const Eigen::Vector3d& point);
+
 }  // namespace armsreach::sim

@@ -31,7 +31,11 @@ Spline spline_through(const PathDescription& path) {
     point << key.eye, key.target, key.roll;
     points.push_back(point);
   }
-  return {std::move(times), std::move(points), path.closed, path.duration};
+  if (times.size() == 1) {  // a tripod
+    times.push_back(times[0] + path.duration);
+    points.push_back(points[0]);
+  }
+  return {std::move(times), std::move(points), path.closed && path.keys.size() > 1, path.duration};
 }
 
 }  // namespace
@@ -86,47 +90,53 @@ Spline::Point Spline::at(double time) const {
              ((a * a * a - a) * accelerations_[i - 1] + (b * b * b - b) * accelerations_[i]);
 }
 
-CameraPath::CameraPath(const PathDescription& description, std::uint64_t seed)
-    : duration_(description.duration),
-      closed_(description.closed),
-      spline_(spline_through(description)) {
+Unrest::Unrest(const Tremor& tremor, double duration, std::uint64_t seed) {
   Random random(seed);
   const auto add = [&](std::vector<Sine>& axis, const Band& band, double rms) {
     for (int i = 0; i < band.sines; ++i) {
       const double rate = random.uniform(band.low, band.high);
-      const double turns = std::max(1.0, std::round(rate * duration_));
-      axis.push_back({rms * std::sqrt(2.0 / band.sines), 2 * std::numbers::pi * turns / duration_,
+      const double turns = std::max(1.0, std::round(rate * duration));
+      axis.push_back({rms * std::sqrt(2.0 / band.sines), 2 * std::numbers::pi * turns / duration,
                       random.uniform(0, 2 * std::numbers::pi)});
     }
   };
-  const Tremor& tremor = description.tremor;
   for (std::size_t axis = 0; axis < 6; ++axis) {
-    add(tremor_[axis], kSway, axis < 3 ? tremor.sway : tremor.sway_angle);
-    add(tremor_[axis], kShake, axis < 3 ? tremor.shake : tremor.shake_angle);
+    add(axes_[axis], kSway, axis < 3 ? tremor.sway : tremor.sway_angle);
+    add(axes_[axis], kShake, axis < 3 ? tremor.shake : tremor.shake_angle);
   }
 }
 
-Vector6d CameraPath::tremor(double time) const {
+Vector6d Unrest::at(double time) const {
   Vector6d sum = Vector6d::Zero();
   for (std::size_t axis = 0; axis < 6; ++axis) {
-    for (const Sine& sine : tremor_[axis])
+    for (const Sine& sine : axes_[axis])
       sum[static_cast<Eigen::Index>(axis)] +=
           sine.amplitude * std::sin(sine.angular_rate * time + sine.phase);
   }
   return sum;
 }
 
+Eigen::Quaterniond looking_along(const Eigen::Vector3d& forward) {
+  const Eigen::Vector3d z = forward.normalized();
+  const Eigen::Vector3d right = z.cross(Eigen::Vector3d::UnitZ()).normalized();
+  Eigen::Matrix3d rotation;
+  rotation << right, z.cross(right), z;
+  return Eigen::Quaterniond(rotation);
+}
+
+CameraPath::CameraPath(const PathDescription& description, std::uint64_t seed)
+    : duration_(description.duration),
+      closed_(description.closed),
+      spline_(spline_through(description)),
+      unrest_(description.tremor, description.duration, seed) {}
+
 Pose CameraPath::world_from_camera(double time) const {
   const double along = closed_ ? time : std::clamp(time, 0.0, duration_);
   const Spline::Point point = spline_.at(along);
   const Eigen::Vector3d eye = point.head<3>();
-  const Eigen::Vector3d forward = (point.segment<3>(3) - eye).normalized();
-  const Eigen::Vector3d right = forward.cross(Eigen::Vector3d::UnitZ()).normalized();
-  Eigen::Matrix3d rotation;
-  rotation << right, forward.cross(right), forward;
   const Eigen::Quaterniond held =
-      Eigen::Quaterniond(rotation) * so3_exp(Eigen::Vector3d(0, 0, point[6]));
-  return Pose(held, eye) * Pose::exp(tremor(along));
+      looking_along(point.segment<3>(3) - eye) * so3_exp(Eigen::Vector3d(0, 0, point[6]));
+  return Pose(held, eye) * Pose::exp(unrest_.at(along));
 }
 
 }  // namespace armsreach::sim

@@ -30,28 +30,38 @@ class Spline {
   double period_;
 };
 
-class CameraPath {
+// The unrest of a hand or a body: on each axis a sum of sines that fit the duration, so that what
+// is closed closes with its unrest.
+class Unrest {
  public:
-  CameraPath(const PathDescription& description, std::uint64_t seed);
-
-  // Camera: x right, y down, z forward. An open path stays at its end, a closed one goes round.
-  Pose world_from_camera(double time) const;
-  double duration() const { return duration_; }
+  Unrest(const Tremor& tremor, double duration, std::uint64_t seed);
+  Vector6d at(double time) const;  // a tangent, as Pose::exp takes it
 
  private:
-  // One axis of the hand's unrest: a sum of sines that fit the path's duration, so that a closed
-  // path closes with its tremor.
   struct Sine {
     double amplitude;
     double angular_rate;  // rad/s
     double phase;
   };
-  Vector6d tremor(double time) const;
+  std::array<std::vector<Sine>, 6> axes_;
+};
 
+// Upright, looking along `forward`, which is not vertical. Camera: x right, y down, z forward.
+Eigen::Quaterniond looking_along(const Eigen::Vector3d& forward);
+
+class CameraPath {
+ public:
+  CameraPath(const PathDescription& description, std::uint64_t seed);
+
+  // An open path stays at its end, a closed one goes round.
+  Pose world_from_camera(double time) const;
+  double duration() const { return duration_; }
+
+ private:
   double duration_;
   bool closed_;
   Spline spline_;  // eye, target, roll
-  std::array<std::vector<Sine>, 6> tremor_;
+  Unrest unrest_;
 };
 
 }  // namespace armsreach::sim

@@ -27,8 +27,9 @@ struct SimOptions {
   bool endless = false;                // round and round a closed path
 };
 
-// Colour and depth come registered from one camera; every frame carries its exact pose. Frame i is
-// at time i / rate; the same world and options give the same bits on the same machine.
+// Colour and depth come registered from one camera; every frame carries its truth
+// (devices/truth.hpp). Frame i is at time i / rate; the same world, options and commands to its
+// gimbal give the same bits on the same machine.
 std::unique_ptr<Source> make_sim_source(const World& world, const SimOptions& options);
 
 // The pinhole camera that a description stands for.

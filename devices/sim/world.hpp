@@ -1,5 +1,6 @@
-// A simulated world as plain data: things, light, the camera's path and its sensor. World frame: z
-// up, the floor at z = 0. Metres, seconds, radians; colours are sRGB, 0..1, red first.
+// A simulated world as plain data: things and how they move, light, the wearer and the sensors.
+// World frame: z up, the floor at z = 0. Metres, seconds, radians; colours are sRGB, 0..1, red
+// first.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +13,14 @@
 
 #include "devices/sim/hand/hand_script.hpp"
 #include "devices/sim/infrared/infrared_description.hpp"
+#include "vision/core/gimbal.hpp"
 #include "vision/core/pose.hpp"
 
 namespace armsreach::sim {
 
 using Color = Eigen::Vector3d;
 
-// Shapes stand on z = 0 around the origin of their thing, z up.
+// Shapes stand on z = 0 around the origin of their part, z up.
 struct Box {
   Eigen::Vector3d size;
 };
@@ -40,7 +42,29 @@ struct Mug {
   double height = 0;
   double wall = 0;
 };
-using Shape = std::variant<Box, Cylinder, Panel, Lathe, Mug>;
+// A rod with round ends; the height is that of the whole.
+struct Capsule {
+  double radius = 0;
+  double height = 0;
+};
+// A box whose upper face has another size: a wedge, a bit, a tray's slope.
+struct TaperedBox {
+  Eigen::Vector2d lower;
+  Eigen::Vector2d upper;
+  double height = 0;
+};
+// A board with a bent outline: at each station along x it reaches from `low` to `high` in y, with
+// straight edges between, and it is `thickness` high.
+struct Slab {
+  struct Station {
+    double x = 0;
+    double low = 0;
+    double high = 0;
+  };
+  std::vector<Station> stations;  // x increases
+  double thickness = 0;
+};
+using Shape = std::variant<Box, Cylinder, Panel, Lathe, Mug, Capsule, TaperedBox, Slab>;
 
 enum class Pattern {
   plain,      // colours: 1, with a faint mottle
@@ -67,10 +91,26 @@ struct Material {
   double infrared = 1;  // share of the depth camera's light that comes back; 0: no depth at all
 };
 
+// Where a thing is at a time. Between two equal keys it rests, and it starts from and comes to rest
+// softly; through the others it passes on a smooth curve.
+struct ThingKey {
+  double time = 0;
+  Pose world_from_thing;
+};
+
+// One rigid thing, with one pose and one place in the instance masks.
 struct Thing {
   std::string name;
+  Pose world_from_thing;       // at the start
+  std::vector<ThingKey> keys;  // times increase; empty: it never moves
+  bool moves = false;          // by its keys or in a hand: its light cannot be gathered beforehand
+};
+
+// A piece of a thing's surface.
+struct Part {
+  int thing = 0;  // index into World::things
   Shape shape;
-  Pose world_from_thing;
+  Pose thing_from_part;
   int material = 0;  // index into World::materials
 };
 
@@ -101,7 +141,7 @@ struct Tremor {
 struct PathDescription {
   double duration = 0;        // s
   bool closed = false;        // from the last key on to the first, which is there at `duration`
-  std::vector<PathKey> keys;  // times strictly increasing from 0
+  std::vector<PathKey> keys;  // times strictly increasing from 0; a single one is a tripod
   Tremor tremor;
 };
 
@@ -118,7 +158,36 @@ struct ColorDescription {
 // Changes nothing.
 inline constexpr ColorDescription kCleanColor{0, 0, 0, 0, 0, 1, 0};
 
+// What the wearer does at a time: where they stand and whither they turn, what they look at, and
+// how far they reach out.
+struct WearerKey {
+  double time = 0;
+  Eigen::Vector2d stand;  // m
+  double heading = 0;     // rad, of the hips, from +x towards +y
+  Eigen::Vector3d look;   // what the eyes rest on
+  double reach = 0;       // 0 upright .. 1 bent forward and turned with the reaching arm
+};
+
+// A person who carries cameras about.
+struct WearerDescription {
+  double height = 1.7;          // m
+  double sway = 0.004;          // m rms, of a standing body
+  std::vector<WearerKey> keys;  // times strictly increasing from 0
+};
+
+// What a camera is mounted on.
+enum class Mount {
+  path,      // moved by hand along the path, or still on a tripod
+  head,      // of the wearer, looking where the eyes do
+  shoulder,  // of the wearer, looking ahead of the chest
+};
+
 struct SensorDescription {
+  Mount mount = Mount::path;
+  std::optional<PathDescription> path;       // its own; none: the world's
+  Pose mount_from_camera;                    // of the camera, where it has no gimbal
+  std::optional<GimbalModel> gimbal;         // between the mount and the camera
+  std::vector<GimbalCommand> gimbal_script;  // given to it unless the program moves it
   int width = 640;
   int height = 480;
   double field_of_view = 1.0;  // rad, horizontal
@@ -134,8 +203,10 @@ struct World {
   std::string about;  // one line for the list of sources
   std::vector<Material> materials;
   std::vector<Thing> things;
+  std::vector<Part> parts;
   Light light;
-  PathDescription path;
+  PathDescription path;  // of whatever is moved by hand; its duration is the world's
+  std::optional<WearerDescription> wearer;
   SensorDescription sensor;
   std::vector<HandDescription> hands;
   std::optional<InfraredDescription> infrared;

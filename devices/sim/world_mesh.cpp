@@ -46,17 +46,17 @@ class Shelves {
 };
 
 struct PlacedPatch {
-  std::size_t thing = 0;
+  std::size_t part = 0;
   Patch patch;
   Chart chart;
 };
 
-// All patches of the world in the order of its things; charts are placed from the highest to the
+// All patches of the world in the order of its parts; charts are placed from the highest to the
 // lowest, which wastes little.
 std::vector<PlacedPatch> placed_patches(const World& world, Shelves& shelves) {
   std::vector<PlacedPatch> placed;
-  for (std::size_t i = 0; i < world.things.size(); ++i) {
-    for (Patch& patch : patches_of(world.things[i].shape)) {
+  for (std::size_t i = 0; i < world.parts.size(); ++i) {
+    for (Patch& patch : patches_of(world.parts[i].shape)) {
       const double longer = std::max(patch.width, patch.height);
       const Chart chart{0, 0, texel_count(patch.width, longer), texel_count(patch.height, longer)};
       placed.push_back({i, std::move(patch), chart});
@@ -81,7 +81,8 @@ Eigen::Vector2d texture_at(const Patch& patch, const Material& material, double 
   return metres / material.size;
 }
 
-void add_triangles(const PlacedPatch& placed, const Material& material, WorldMesh& mesh) {
+void add_triangles(const PlacedPatch& placed, const Pose& thing_from_part, const Material& material,
+                   WorldMesh& mesh) {
   const Patch& patch = placed.patch;
   const Chart& chart = placed.chart;
   const std::uint32_t base = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -94,7 +95,9 @@ void add_triangles(const PlacedPatch& placed, const Material& material, WorldMes
       // a neighbour's.
       const Eigen::Vector2d light((chart.x + 0.5 + u * (chart.width - 1)) / mesh.atlas_width,
                                   (chart.y + 0.5 + v * (chart.height - 1)) / mesh.atlas_height);
-      mesh.vertices.push_back({point.position.cast<float>(), point.normal.cast<float>(),
+      const Eigen::Vector3d position = thing_from_part * point.position;
+      const Eigen::Vector3d normal = thing_from_part.rotation() * point.normal;
+      mesh.vertices.push_back({position.cast<float>(), normal.cast<float>(),
                                texture_at(patch, material, u, v, point.position).cast<float>(),
                                light.cast<float>()});
     }
@@ -109,16 +112,19 @@ void add_triangles(const PlacedPatch& placed, const Material& material, WorldMes
   }
 }
 
-void add_texels(const PlacedPatch& placed, const Pose& world_from_thing, WorldMesh& mesh) {
+void add_texels(const PlacedPatch& placed, const Pose& frame_from_part, int thing,
+                WorldMesh& mesh) {
   const Chart& chart = placed.chart;
   for (int y = 0; y < chart.height; ++y) {
     for (int x = 0; x < chart.width; ++x) {
       const SurfacePoint point = placed.patch.at(static_cast<double>(x) / (chart.width - 1),
                                                  static_cast<double>(y) / (chart.height - 1));
-      const Eigen::Vector3d position = world_from_thing * point.position;
-      const Eigen::Vector3d normal = world_from_thing.rotation() * point.normal;
-      LightTexel& texel =
-          mesh.texels[static_cast<std::size_t>((chart.y + y) * mesh.atlas_width + chart.x + x)];
+      const Eigen::Vector3d position = frame_from_part * point.position;
+      const Eigen::Vector3d normal = frame_from_part.rotation() * point.normal;
+      const std::size_t index =
+          static_cast<std::size_t>((chart.y + y) * mesh.atlas_width + chart.x + x);
+      LightTexel& texel = mesh.texels[index];
+      mesh.texel_things[index] = thing;
       texel.position << position.cast<float>(), 1;
       texel.normal << normal.cast<float>(), 0;
     }
@@ -135,13 +141,17 @@ WorldMesh mesh_of(const World& world) {
   mesh.atlas_height = shelves.height();
   mesh.texels.assign(static_cast<std::size_t>(mesh.atlas_width * mesh.atlas_height),
                      {Eigen::Vector4f::Zero(), Eigen::Vector4f::Zero()});
-  mesh.things.resize(world.things.size());
+  mesh.texel_things.assign(mesh.texels.size(), -1);
+  mesh.parts.resize(world.parts.size());
   for (const PlacedPatch& placed : patches) {
-    const Thing& thing = world.things[placed.thing];
+    const Part& part = world.parts[placed.part];
+    const Thing& thing = world.things[static_cast<std::size_t>(part.thing)];
     const std::uint32_t first = static_cast<std::uint32_t>(mesh.indices.size());
-    add_triangles(placed, world.materials[static_cast<std::size_t>(thing.material)], mesh);
-    add_texels(placed, thing.world_from_thing, mesh);
-    MeshRange& range = mesh.things[placed.thing];
+    add_triangles(placed, part.thing_from_part,
+                  world.materials[static_cast<std::size_t>(part.material)], mesh);
+    const Pose frame_from_thing = thing.moves ? Pose() : thing.world_from_thing;
+    add_texels(placed, frame_from_thing * part.thing_from_part, part.thing, mesh);
+    MeshRange& range = mesh.parts[placed.part];
     if (range.count == 0) range.first = first;
     range.count += static_cast<std::uint32_t>(mesh.indices.size()) - first;
   }

@@ -13,18 +13,19 @@
 namespace armsreach::sim {
 
 struct WorldVertex {
-  Eigen::Vector3f position;  // in the thing's frame
+  Eigen::Vector3f position;  // in the part's thing's frame
   Eigen::Vector3f normal;
   Eigen::Vector2f texture;  // in repeats of the material's pattern, v down
   Eigen::Vector2f light;    // in the atlas, 0..1
 };
 
+// In the world's frame, or in that of a thing that moves.
 struct LightTexel {
-  Eigen::Vector4f position;  // world frame; w = 1
-  Eigen::Vector4f normal;    // world frame; w = 0; zero where no surface is
+  Eigen::Vector4f position;  // w = 1
+  Eigen::Vector4f normal;    // w = 0; zero where no surface is
 };
 
-struct MeshRange {  // of the thing with the same index
+struct MeshRange {  // of the part with the same index
   std::uint32_t first = 0;
   std::uint32_t count = 0;
 };
@@ -32,10 +33,11 @@ struct MeshRange {  // of the thing with the same index
 struct WorldMesh {
   std::vector<WorldVertex> vertices;
   std::vector<std::uint32_t> indices;  // three a triangle, counter-clockwise seen from outside
-  std::vector<MeshRange> things;
+  std::vector<MeshRange> parts;
   int atlas_width = 0;
   int atlas_height = 0;
   std::vector<LightTexel> texels;  // row by row
+  std::vector<int> texel_things;   // which thing each texel lies on; -1: none
 };
 
 WorldMesh mesh_of(const World& world);

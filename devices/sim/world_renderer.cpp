@@ -17,7 +17,7 @@ namespace armsreach::sim {
 namespace {
 
 constexpr render::TextureFormat kColor{GL_RGBA8, GL_BGRA, GL_UNSIGNED_BYTE};
-constexpr render::TextureFormat kDepth{GL_R32F, GL_RED, GL_FLOAT};
+constexpr render::TextureFormat kDepthAndInstance{GL_RG32F, GL_RG, GL_FLOAT};
 
 // A texture that repeats, with all its reductions.
 render::Texture make_texture(const render::Gl& gl, const cv::Mat& bgr) {
@@ -39,16 +39,24 @@ render::Texture make_texture(const render::Gl& gl, const cv::Mat& bgr) {
   return texture;
 }
 
-Result<render::Program> surface_program(const render::Gl& gl, std::string_view highlight) {
+Result<render::Program> surface_program(const render::Gl& gl, std::string_view light, bool shiny) {
+  std::vector<std::string_view> parts{"shaders/sim_inputs.glsl"};
+  if (light != "shaders/sim_light_still.glsl") parts.push_back("shaders/sim_shadow.glsl");
+  parts.push_back(light);
+  parts.push_back(shiny ? "shaders/sim_shiny.glsl" : "shaders/sim_dull.glsl");
+  parts.push_back("shaders/sim_surface.frag.glsl");
   return render::Program::from_assets(
-      gl, {"shaders/target.glsl", "shaders/view.glsl", "shaders/sim_surface.vert.glsl"},
-      {highlight, "shaders/sim_surface.frag.glsl"});
+      gl, {"shaders/target.glsl", "shaders/view.glsl", "shaders/sim_surface.vert.glsl"}, parts);
 }
 
 }  // namespace
 
 WorldRenderer::WorldRenderer(const render::Gl& gl, const World& world, const Camera& camera)
-    : gl_(gl), world_(world), camera_(camera) {}
+    : gl_(gl),
+      world_(world),
+      camera_(camera),
+      anything_moves_(std::any_of(world.things.begin(), world.things.end(),
+                                  [](const Thing& thing) { return thing.moves; })) {}
 
 Result<std::unique_ptr<WorldRenderer>> WorldRenderer::make(const render::Gl& gl, const World& world,
                                                            const Camera& camera,
@@ -61,18 +69,23 @@ Result<std::unique_ptr<WorldRenderer>> WorldRenderer::make(const render::Gl& gl,
 }
 
 Status WorldRenderer::make_programs() {
-  auto dull = surface_program(gl_, "shaders/sim_dull.glsl");
-  if (!dull) return dull.error();
-  auto shiny = surface_program(gl_, "shaders/sim_shiny.glsl");
-  if (!shiny) return shiny.error();
-  dull_ = std::move(*dull);
-  shiny_ = std::move(*shiny);
+  constexpr std::array<std::string_view, kLightKinds> kLights{"shaders/sim_light_still.glsl",
+                                                              "shaders/sim_light_beside.glsl",
+                                                              "shaders/sim_light_moving.glsl"};
+  for (std::size_t light = 0; light < kLights.size(); ++light) {
+    if ((light == kStill) == anything_moves_) continue;  // not needed here
+    for (const bool shiny : {false, true}) {
+      auto program = surface_program(gl_, kLights[light], shiny);
+      if (!program) return program.error();
+      programs_[light][shiny] = std::move(*program);
+    }
+  }
   return ok();
 }
 
 Status WorldRenderer::make_target() {
-  auto target =
-      render::Framebuffer::make(gl_, {camera_.width, camera_.height, 0, {kColor, kDepth}, true});
+  auto target = render::Framebuffer::make(
+      gl_, {camera_.width, camera_.height, 0, {kColor, kDepthAndInstance}, true});
   if (!target) return target.error();
   target_ = std::move(*target);
   return ok();
@@ -85,14 +98,18 @@ Status WorldRenderer::paint(std::uint64_t seed) {
   gpu_world_ = GpuWorld(gl_, mesh);
   auto light = gather_light(gl_, world_, mesh, gpu_world_);
   if (!light) return light.error();
-  cv::Mat image;
-  cv::cvtColor(*light, image, cv::COLOR_BGR2BGRA);
-  light_map_ = render::Texture(gl_, image.cols, image.rows, kColor);
-  light_map_.upload(image.data);
+  light_map_ = render::Texture(gl_, light->cols, light->rows, kColor);
+  light_map_.upload(light->data);
+  if (!anything_moves_) return ok();
+  auto moving = MovingLight::make(gl_, world_, mesh, gpu_world_);
+  if (!moving) return moving.error();
+  moving_light_ = std::move(*moving);
   return ok();
 }
 
-ExactImages WorldRenderer::draw(const Pose& world_from_camera) const {
+ExactImages WorldRenderer::draw(const Pose& world_from_camera,
+                                const std::vector<Pose>& world_from_thing) {
+  if (anything_moves_) moving_light_.follow(world_, gpu_world_, world_from_thing);
   target_.bind();
   gl_.Enable(GL_DEPTH_TEST);
   gl_.Disable(GL_BLEND);
@@ -106,13 +123,13 @@ ExactImages WorldRenderer::draw(const Pose& world_from_camera) const {
   gl_.ClearBufferfv(GL_COLOR, 1, kUnknown.data());
   gpu_world_.bind();
   light_map_.bind(1);
-  draw_things(shiny_, world_from_camera,
-              [](const Thing&, const Material& material) { return material.shine > 0; });
+  if (anything_moves_) moving_light_.bind();
   // Floor and walls come last: most of them is hidden and then costs nothing.
-  for (const bool panels : {false, true}) {
-    draw_things(dull_, world_from_camera, [panels](const Thing& thing, const Material& material) {
-      return material.shine == 0 && std::holds_alternative<Panel>(thing.shape) == panels;
-    });
+  for (const bool panel : {false, true}) {
+    for (const LightKind light : {kMoving, kBeside, kStill}) {
+      for (const bool shiny : {true, false})
+        draw_parts({light, shiny, panel}, world_from_camera, world_from_thing);
+    }
   }
   return read();
 }
@@ -121,37 +138,63 @@ ExactImages WorldRenderer::read() const {
   cv::Mat color(camera_.height, camera_.width, CV_8UC4);
   target_.read(GL_BGRA, GL_UNSIGNED_BYTE, color.data, 0);
   ExactImages images;
-  images.depth.create(color.size(), CV_32F);
-  target_.read(GL_RED, GL_FLOAT, images.depth.data, 1);
   images.color.create(color.size(), CV_8UC3);
   images.returned.create(color.size(), CV_8U);
   std::array<cv::Mat, 2> parts{images.color, images.returned};
   constexpr std::array kChannels{0, 0, 1, 1, 2, 2, 3, 3};
   cv::mixChannels(&color, 1, parts.data(), parts.size(), kChannels.data(), 4);
+  cv::Mat both(color.size(), CV_32FC2);
+  target_.read(GL_RG, GL_FLOAT, both.data, 1);
+  images.depth.create(color.size(), CV_32F);
+  images.masks.create(color.size(), CV_16U);
+  const cv::Vec2f* pixel = both.ptr<cv::Vec2f>();
+  float* depth = images.depth.ptr<float>();
+  std::uint16_t* mask = images.masks.ptr<std::uint16_t>();
+  for (std::size_t i = 0; i < both.total(); ++i) {
+    depth[i] = pixel[i][0];
+    mask[i] = static_cast<std::uint16_t>(pixel[i][1]);
+  }
   return images;
 }
 
-template <class Wanted>
-void WorldRenderer::draw_things(const render::Program& program, const Pose& world_from_camera,
-                                const Wanted& wanted) const {
+WorldRenderer::Kind WorldRenderer::kind_of(const Part& part) const {
+  const bool moves = world_.things[static_cast<std::size_t>(part.thing)].moves;
+  return {moves             ? kMoving
+          : anything_moves_ ? kBeside
+                            : kStill,
+          world_.materials[static_cast<std::size_t>(part.material)].shine > 0,
+          std::holds_alternative<Panel>(part.shape)};
+}
+
+void WorldRenderer::draw_parts(const Kind& kind, const Pose& world_from_camera,
+                               const std::vector<Pose>& world_from_thing) const {
+  const render::Program& program = programs_[kind.light][kind.shiny];
+  bool ready = false;
+  for (std::size_t i = 0; i < world_.parts.size(); ++i) {
+    const Part& part = world_.parts[i];
+    if (!(kind_of(part) == kind)) continue;
+    if (!std::exchange(ready, true)) use(program, world_from_camera);
+    const std::size_t material_index = static_cast<std::size_t>(part.material);
+    const Material& material = world_.materials[material_index];
+    const Pose& pose = world_from_thing[static_cast<std::size_t>(part.thing)];
+    program.set("world_from_thing", Eigen::Matrix4f(pose.matrix().cast<float>()));
+    program.set("instance", static_cast<float>(part.thing + 1));
+    program.set("infrared", static_cast<float>(material.infrared));
+    program.set("shine", static_cast<float>(material.shine));
+    patterns_[material_index].bind(0);
+    gpu_world_.draw(i);
+  }
+}
+
+void WorldRenderer::use(const render::Program& program, const Pose& world_from_camera) const {
   program.use();
   render::set_view(program, render::view_of(camera_, world_from_camera));
   program.set("pattern", 0);
   program.set("light_map", 1);
   program.set("light_range", kLightRange);
   program.set("eye_in_world", Eigen::Vector3f(world_from_camera.translation().cast<float>()));
-  program.set("towards_light", Eigen::Vector3f(world_.light.towards.cast<float>()));
-  for (std::size_t i = 0; i < world_.things.size(); ++i) {
-    const Thing& thing = world_.things[i];
-    const std::size_t material_index = static_cast<std::size_t>(thing.material);
-    const Material& material = world_.materials[material_index];
-    if (!wanted(thing, material)) continue;
-    program.set("world_from_thing", Eigen::Matrix4f(thing.world_from_thing.matrix().cast<float>()));
-    program.set("infrared", static_cast<float>(material.infrared));
-    program.set("shine", static_cast<float>(material.shine));
-    patterns_[material_index].bind(0);
-    gpu_world_.draw(i);
-  }
+  program.set("highlight_from", Eigen::Vector3f(world_.light.towards.cast<float>()));
+  if (anything_moves_) moving_light_.set(program, world_.light);
 }
 
 }  // namespace armsreach::sim

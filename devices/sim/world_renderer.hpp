@@ -1,7 +1,8 @@
-// Draws a simulated world as a camera sees it: colour, exact depth, and how much of a depth
-// camera's light comes back.
+// Draws a simulated world as a camera sees it: colour, exact depth, which thing is where, and how
+// much of a depth camera's light comes back.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -9,6 +10,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "devices/sim/gpu_world.hpp"
+#include "devices/sim/moving_light.hpp"
 #include "devices/sim/world.hpp"
 #include "render/gl_objects.hpp"
 #include "vision/core/camera.hpp"
@@ -21,6 +23,7 @@ struct ExactImages {
   cv::Mat color;     // CV_8UC3 BGR
   cv::Mat depth;     // CV_32F m along z, NaN where the world is open
   cv::Mat returned;  // CV_8U, share of infra-red light in 255ths
+  cv::Mat masks;     // CV_16U, the thing's index + 1; 0 where the world is open
 };
 
 // Lives and dies on the thread of its context.
@@ -29,11 +32,8 @@ class WorldRenderer {
   // Paints all textures and gathers the light. `camera` is a plain pinhole.
   static Result<std::unique_ptr<WorldRenderer>> make(const render::Gl& gl, const World& world,
                                                      const Camera& camera, std::uint64_t seed);
-  // Moves a thing of the world; the light on it stays as it was gathered.
-  void place(std::size_t thing, const Pose& world_from_thing) {
-    world_.things[thing].world_from_thing = world_from_thing;
-  }
-  ExactImages draw(const Pose& world_from_camera) const;
+  // `world_from_thing`: of all things; those that do not move are where they were at the start.
+  ExactImages draw(const Pose& world_from_camera, const std::vector<Pose>& world_from_thing);
 
  private:
   WorldRenderer(const render::Gl& gl, const World& world, const Camera& camera);
@@ -41,21 +41,30 @@ class WorldRenderer {
   Status make_target();
   Status paint(std::uint64_t seed);
 
-  // Those things that `wanted(thing, material)` picks.
-  template <class Wanted>
-  void draw_things(const render::Program& program, const Pose& world_from_camera,
-                   const Wanted& wanted) const;
+  // Where a part's light comes from, and whether it mirrors any.
+  enum LightKind { kStill, kBeside, kMoving, kLightKinds };
+  struct Kind {
+    LightKind light = kStill;
+    bool shiny = false;
+    bool panel = false;
+    bool operator==(const Kind&) const = default;
+  };
+  Kind kind_of(const Part& part) const;
+  void draw_parts(const Kind& kind, const Pose& world_from_camera,
+                  const std::vector<Pose>& world_from_thing) const;
+  void use(const render::Program& program, const Pose& world_from_camera) const;
   ExactImages read() const;
 
   const render::Gl& gl_;
   World world_;
   Camera camera_;
   GpuWorld gpu_world_;
-  render::Program dull_;
-  render::Program shiny_;
-  std::vector<render::Texture> patterns_;  // by material
+  bool anything_moves_ = false;
+  MovingLight moving_light_;                                          // where anything moves
+  std::array<std::array<render::Program, 2>, kLightKinds> programs_;  // dull, shiny
+  std::vector<render::Texture> patterns_;                             // by material
   render::Texture light_map_;
-  render::Framebuffer target_;  // colour, with infra-red in its alpha; depth
+  render::Framebuffer target_;  // colour, with infra-red in its alpha; depth and instance
 };
 
 }  // namespace armsreach::sim

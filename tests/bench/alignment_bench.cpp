@@ -1,7 +1,9 @@
-// The tracker's step, downsampling from 640x480 included, beside the odometries of cv::rgbd at
-// 640x480 on the same frames, all on one thread. Run with --benchmark_enable_random_interleaving
-// and a few repetitions to interleave them.
+// The tracker's step, reduction of its input included, beside the odometries of cv::rgbd on the
+// same frames, all on one thread. The two take turns frame by frame, so that their ratio holds on a
+// busy machine.
+#include <chrono>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -14,59 +16,104 @@
 namespace armsreach {
 namespace {
 
-// A hand-held sweep to and fro with a Kinect's noise.
+// A hand-held sweep to and fro with a Kinect's noise, by a camera of this width.
+std::vector<FramePtr> sweep(int width) {
+  test::SyntheticRoom room;
+  room.depth_noise = 1.425e-3;
+  room.intensity_noise = 0.01;
+  const auto sensor = test::synthetic_sensor(width);
+  Vector6d step;
+  step << 0.008, 0.002, 0.004, 0.002, 0.006, 0.001;
+  std::vector<FramePtr> out;
+  for (int i = 0; i < 16; ++i) {
+    out.push_back(room.frame(sensor, Pose::exp((i < 8 ? i : 16 - i) * step), i));
+  }
+  return out;
+}
 const std::vector<FramePtr>& frames() {
-  static const std::vector<FramePtr> made = [] {
-    test::SyntheticRoom room;
-    room.depth_noise = 1.425e-3;
-    room.intensity_noise = 0.01;
-    const auto sensor = test::synthetic_sensor();
-    Vector6d step;
-    step << 0.008, 0.002, 0.004, 0.002, 0.006, 0.001;
-    std::vector<FramePtr> out;
-    for (int i = 0; i < 16; ++i) {
-      out.push_back(room.frame(sensor, Pose::exp((i < 8 ? i : 16 - i) * step), i));
-    }
-    return out;
-  }();
+  static const std::vector<FramePtr> made = sweep(640);
   return made;
 }
 
-void tracker_step(benchmark::State& state, int width, std::vector<int> iterations, bool map) {
-  TrackerOptions options;
-  options.width = width;
-  options.aligner.iterations = std::move(iterations);
-  Tracker tracker(options);
-  TrackedFrame last = tracker.track(frames()[0], nullptr);
-  std::size_t i = 1;
-  for (auto _ : state) {
-    // A new view every frame, as from a map: one more pyramid to build than from frame to frame.
+// Tracks against a new view every frame, as from a map: one more pyramid to build than from frame
+// to frame.
+class OurStep {
+ public:
+  explicit OurStep(int width) : tracker_(options(width)) {}
+  bool operator()(const FramePtr& frame) {
     ReferenceViewPtr view;
-    if (map) {
+    if (last_.frame) {
       view = std::make_shared<ReferenceView>(ReferenceView{
-          last.camera, last.world_from_camera, last.depth, last.intensity, last.frame->index});
+          last_.camera, last_.world_from_camera, last_.depth, last_.intensity, last_.frame->index});
     }
-    last = tracker.track(frames()[i++ % frames().size()], view);
-    if (last.state != TrackingState::tracking) state.SkipWithError("lost");
+    last_ = tracker_.track(frame, view);
+    return last_.state != TrackingState::lost;
+  }
+
+ private:
+  static TrackerOptions options(int width) {
+    TrackerOptions out;
+    out.width = width;
+    return out;
+  }
+  Tracker tracker_;
+  TrackedFrame last_;
+};
+
+class PeerStep {
+ public:
+  PeerStep(cv::Ptr<cv::rgbd::Odometry> odometry, const Camera& camera)
+      : odometry_(std::move(odometry)) {
+    odometry_->setCameraMatrix(
+        (cv::Mat_<float>(3, 3) << camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1));
+  }
+  bool operator()(const FramePtr& frame) {
+    auto now =
+        cv::rgbd::OdometryFrame::create(frame->color, frame->depth, cv::Mat(), cv::Mat(), -1);
+    cv::Mat motion;
+    const bool found = !last_ || odometry_->compute(last_, now, motion);
+    last_ = now;
+    return found;
+  }
+
+ private:
+  cv::Ptr<cv::rgbd::Odometry> odometry_;
+  cv::Ptr<cv::rgbd::OdometryFrame> last_;
+};
+
+void tracker_step(benchmark::State& state, int width) {
+  OurStep step(width);
+  std::size_t i = 0;
+  step(frames()[i++]);
+  for (auto _ : state) {
+    if (!step(frames()[i++ % frames().size()])) state.SkipWithError("lost");
   }
 }
 
-void peer(benchmark::State& state, const cv::Ptr<cv::rgbd::Odometry>& odometry) {
-  const Camera& camera = *frames()[0]->sensor->depth_camera;
-  odometry->setCameraMatrix(
-      (cv::Mat_<float>(3, 3) << camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1));
+// Input images of one width, tracked by us at another.
+void beside(benchmark::State& state, const cv::Ptr<cv::rgbd::Odometry>& odometry, int input,
+            int ours_at) {
+  using Clock = std::chrono::steady_clock;
+  const std::vector<FramePtr> images = sweep(input);
+  OurStep ours(ours_at);
+  PeerStep peer(odometry, *images[0]->sensor->depth_camera);
+  ours(images[0]);
+  peer(images[0]);
+  std::chrono::duration<double, std::milli> our_time{}, peer_time{};
   std::size_t i = 1;
-  const auto frame = [](std::size_t at) {
-    const Frame& f = *frames()[at % frames().size()];
-    return cv::rgbd::OdometryFrame::create(f.color, f.depth, cv::Mat(), cv::Mat(), -1);
-  };
-  auto last = frame(0);
   for (auto _ : state) {
-    auto now = frame(i++);
-    cv::Mat motion;
-    if (!odometry->compute(last, now, motion)) state.SkipWithError("no motion found");
-    last = now;
+    const FramePtr& frame = images[i++ % images.size()];
+    const auto start = Clock::now();
+    if (!ours(frame)) state.SkipWithError("ours is lost");
+    const auto between = Clock::now();
+    if (!peer(frame)) state.SkipWithError("the peer finds no motion");
+    our_time += between - start;
+    peer_time += Clock::now() - between;
   }
+  const auto steps = static_cast<double>(state.iterations());
+  state.counters["ours_ms"] = our_time.count() / steps;
+  state.counters["peer_ms"] = peer_time.count() / steps;
+  state.counters["ratio"] = peer_time / our_time;
 }
 
 void reduction(benchmark::State& state, int factor) {
@@ -93,12 +140,26 @@ void aligner(benchmark::State& state, Isa isa) {
 }
 
 #define ARMSREACH_BENCH(...) BENCHMARK_CAPTURE(__VA_ARGS__)->Unit(benchmark::kMillisecond)
-ARMSREACH_BENCH(tracker_step, to_80x60_frame_to_frame, 80, {5, 5}, false);
-ARMSREACH_BENCH(tracker_step, to_80x60_against_views, 80, {5, 5}, true);
-ARMSREACH_BENCH(tracker_step, to_160x120_against_views, 160, {3, 4, 5}, true);
-ARMSREACH_BENCH(peer, RgbdOdometry_640x480, cv::rgbd::RgbdOdometry::create());
-ARMSREACH_BENCH(peer, ICPOdometry_640x480, cv::rgbd::ICPOdometry::create());
-ARMSREACH_BENCH(peer, RgbdICPOdometry_640x480, cv::rgbd::RgbdICPOdometry::create());
+ARMSREACH_BENCH(tracker_step, from_640x480_to_80x60, 80);
+ARMSREACH_BENCH(tracker_step, from_640x480_to_160x120, 160);
+#define ARMSREACH_BESIDE(peer, input, ours_at)                                                    \
+  ARMSREACH_BENCH(beside, peer##_at_##input##_ours_to_##ours_at, cv::rgbd::peer::create(), input, \
+                  ours_at)                                                                        \
+      ->Iterations(32)
+ARMSREACH_BESIDE(RgbdOdometry, 80, 80);
+ARMSREACH_BESIDE(RgbdOdometry, 160, 80);
+ARMSREACH_BESIDE(RgbdOdometry, 320, 80);
+ARMSREACH_BESIDE(RgbdOdometry, 640, 80);
+ARMSREACH_BESIDE(RgbdOdometry, 160, 160);
+ARMSREACH_BESIDE(RgbdOdometry, 640, 160);
+ARMSREACH_BESIDE(ICPOdometry, 80, 80);
+ARMSREACH_BESIDE(ICPOdometry, 160, 80);
+ARMSREACH_BESIDE(ICPOdometry, 320, 80);
+ARMSREACH_BESIDE(ICPOdometry, 640, 80);
+ARMSREACH_BESIDE(RgbdICPOdometry, 80, 80);
+ARMSREACH_BESIDE(RgbdICPOdometry, 160, 80);
+ARMSREACH_BESIDE(RgbdICPOdometry, 320, 80);
+ARMSREACH_BESIDE(RgbdICPOdometry, 640, 80);
 ARMSREACH_BENCH(reduction, to_80x60, 8);
 ARMSREACH_BENCH(reduction, to_160x120, 4);
 ARMSREACH_BENCH(aligner, 80x60_baseline, Isa::baseline);

@@ -36,7 +36,8 @@ struct ResidualScales {
 struct AlignmentResult {
   Pose reference_from_camera;
   double intensity_offset = 0;  // the camera's intensity minus the reference's
-  ResidualScales scales;        // robustly estimated at the solution
+  ResidualScales scales;        // robustly estimated at the solution; 0: nothing to compare
+  double alpha = 0;             // the weight of depth; 0 when the camera has none
   int compared = 0;             // pixels of the camera's finest level with a residual
   int inliers = 0;              // of those, with a weight above zero
   cv::Mat weights;              // see TrackedFrame::weights

@@ -14,7 +14,13 @@ bool sees_anything(const cv::Mat& depth) {
   return 10 * known > depth.total();
 }
 
-// Coarser by one level, and with iterations enough to come from where the motion ends up.
+AlignerOptions usual(const TrackerOptions& options) {
+  AlignerOptions aligner = options.aligner;
+  if (aligner.iterations.empty()) aligner.iterations = default_iterations(options.width);
+  return aligner;
+}
+
+// Coarser by one level, and with iterations enough to come from farther away.
 AlignerOptions searching(AlignerOptions options) {
   for (int& iterations : options.iterations) iterations = std::max(iterations, 10);
   options.iterations.push_back(20);
@@ -23,23 +29,31 @@ AlignerOptions searching(AlignerOptions options) {
 
 }  // namespace
 
+std::vector<int> default_iterations(int width) {
+  if (width < 120) return {5, 3};
+  std::vector<int> iterations{3, 4};
+  for (; width >= 240; width /= 2) iterations.push_back(4);
+  iterations.push_back(3);
+  return iterations;
+}
+
 Tracker::Tracker(TrackerOptions options)
     : options_(std::move(options)),
-      aligner_(options_.aligner),
-      searching_aligner_(searching(options_.aligner)),
-      motion_(options_.motion),
-      verdict_(options_.aligner.alpha) {}
+      aligner_(usual(options_)),
+      searching_aligner_(searching(aligner_.options())),
+      motion_(options_.motion) {}
 
 TrackedFrame Tracker::reduced(const FramePtr& frame) {
   if (!reducer_) {
     reducer_.emplace(frame->sensor, options_.width);
     motion_.start(options_.start.value_or(Pose()), frame->time);
   }
-  ReducedFrame images = reducer_->reduce(*frame);
+  sensor_noise_.learn(frame->depth);
+  ReducedFrame images = reducer_->reduce(*frame, sensor_noise_.k());
   TrackedFrame tracked;
   tracked.frame = frame;
   tracked.camera = reducer_->camera();
-  tracked.depth = std::move(images.depth);
+  if (sees_anything(images.depth)) tracked.depth = std::move(images.depth);
   tracked.intensity = std::move(images.intensity);
   camera_.assign(tracked.camera, tracked.depth, tracked.intensity,
                  static_cast<int>(searching_aligner_.options().iterations.size()));
@@ -54,7 +68,7 @@ TrackedFrame Tracker::track(const FramePtr& frame, const ReferenceViewPtr& map_r
   if (unknown_world && options_.start) {
     motion_.start(*options_.start, frame->time);  // however long it took to see something
     tracked.world_from_camera = *options_.start;
-    if (sees_anything(tracked.depth)) keep_as_reference(tracked, nullptr);
+    keep_as_reference(tracked, nullptr);
     return tracked;
   }
   if (!unknown_world) {
@@ -103,48 +117,55 @@ void Tracker::take(const ReferenceViewPtr& view, ReferenceViewPtr& taken,
 bool Tracker::relocalise(const ReferenceViewPtr& proposed, TrackedFrame& tracked) {
   take(proposed, proposed_view_, proposed_);
   Attempt found;
-  found.reference = &proposed_;
   // From where the view was drawn, and, should the camera have stayed, from where it was last.
   for (const Pose& start : {proposed_.world_from_camera, motion_.measured()}) {
-    found.alignment = searching_aligner_.align(camera_, proposed_.pyramid,
-                                               proposed_.world_from_camera.inverse() * start, 0);
+    found = attempt(searching_aligner_, proposed_, start);
     found.trusted = verdict_.confirms(found.alignment, pixels());
     if (found.trusted) break;
   }
   if (!found.trusted) return false;
-  found.world_from_camera = proposed_.world_from_camera * found.alignment.reference_from_camera;
   report(found, tracked);
   tracked.state = TrackingState::relocalised;
   motion_.start(tracked.world_from_camera, tracked.frame->time);
   std::swap(map_, proposed_);
   proposed_view_ = nullptr;
+  own_ = {};
   keep_as_reference(tracked, nullptr);
   return true;
 }
 
 // The map before the tracker's own frame, where the camera is predicted before where it was seen
-// last; the first that is trusted, else the first.
+// last; then the same from farther away. The first that is trusted, else the first.
 Tracker::Attempt Tracker::best_attempt(Timestamp time) {
   std::optional<Attempt> first;
-  for (const Reference* reference : {&map_, &own_}) {
-    if (reference->empty()) continue;
-    for (const Pose& start : {motion_.predicted(time), motion_.measured()}) {
-      Attempt tried = attempt(*reference, start, time);
-      if (tried.trusted) return tried;
-      if (!first) first = std::move(tried);
+  for (Aligner* aligner : {&aligner_, &searching_aligner_}) {
+    for (const Reference* reference : {&map_, &own_}) {
+      if (reference->empty()) continue;
+      for (const Pose& start : {motion_.predicted(time), motion_.measured()}) {
+        Attempt tried = attempt(*aligner, *reference, start);
+        tried.trusted = follows(tried, time);
+        if (tried.trusted) return tried;
+        if (!first) first = std::move(tried);
+      }
     }
   }
   return std::move(*first);
 }
 
-Tracker::Attempt Tracker::attempt(const Reference& reference, const Pose& start, Timestamp time) {
+bool Tracker::follows(const Attempt& tried, Timestamp time) const {
+  // Who has not been seen for a while may be anywhere: then the fit alone must convince.
+  const bool fits = motion_.recent(time) ? verdict_.trusts(tried.alignment, pixels())
+                                         : verdict_.confirms(tried.alignment, pixels());
+  return fits && motion_.plausible(tried.world_from_camera, time);
+}
+
+Tracker::Attempt Tracker::attempt(Aligner& aligner, const Reference& reference,
+                                  const Pose& start) const {
   Attempt out;
-  out.alignment = aligner_.align(camera_, reference.pyramid,
-                                 reference.world_from_camera.inverse() * start, intensity_offset_);
+  out.alignment = aligner.align(camera_, reference.pyramid,
+                                reference.world_from_camera.inverse() * start, intensity_offset_);
   out.world_from_camera = reference.world_from_camera * out.alignment.reference_from_camera;
   out.reference = &reference;
-  out.trusted =
-      verdict_.trusts(out.alignment, pixels()) && motion_.plausible(out.world_from_camera, time);
   return out;
 }
 

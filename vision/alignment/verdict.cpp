@@ -6,17 +6,11 @@
 namespace armsreach {
 namespace {
 
-constexpr double kLeastCompared = 0.1;  // of all pixels
-constexpr double kLeastInliers = 0.5;   // of those compared
-constexpr double kSurprise = 4;         // times the usual residual
-constexpr double kLeastOverlap = 0.3;   // of all pixels, and times the usual residual, of a pose
-constexpr double kStrictSurprise = 2;   // that nothing else speaks for
+constexpr double kLeastInliers = 0.5;  // of the pixels compared
 // Below these no residual is suspicious, above the others none is depth or a picture: k z^2 of the
 // best depth cameras and of none, one grey level and a third of the range.
 constexpr ResidualScales kAlwaysFine{1e-3, 4e-3};
 constexpr ResidualScales kNeverFine{5e-2, 0.3};
-// What is no surprise while nothing is known to be usual: four times a Kinect's at 80x60.
-constexpr ResidualScales kStrict{8e-3, 0.08};
 constexpr int kMemory = 30;  // frames over which the usual residuals are averaged
 // Information beside what noise feigns: 0.5 to 1 on blank walls, from 4 in rooms.
 constexpr double kLeastObservability = 2;
@@ -30,38 +24,55 @@ double rms(const ResidualScales& scales, const ResidualScales& level, double alp
 
 }  // namespace
 
-ResidualScales Verdict::suspicious(double surprise) const {
-  return {surprise * std::max(usual_.depth, kAlwaysFine.depth),
-          surprise * std::max(usual_.intensity, kAlwaysFine.intensity)};
-}
+// Beside no usual residuals a found pose is compared with four times a Kinect's at 80x60; at poses
+// half a metre off, depth often fits as well, but intensity leaves 0.09 and more.
+const Verdict::Demands Verdict::kFollowed{0.1, 4, kNeverFine};
+const Verdict::Demands Verdict::kFound{0.3, 2.5, {8e-3, 0.08}};
 
-bool Verdict::fits(const AlignmentResult& alignment, int pixels, double least_compared,
-                   const ResidualScales& suspicious) const {
-  return alignment.ok && alignment.compared >= least_compared * pixels &&
+bool Verdict::meets(const Demands& demands, const AlignmentResult& alignment, int pixels) {
+  const ResidualScales& scales = alignment.scales;
+  return alignment.ok && alignment.compared >= demands.overlap * pixels &&
          alignment.inliers >= kLeastInliers * alignment.compared &&
-         alignment.observability > kLeastObservability &&
-         alignment.scales.depth < kNeverFine.depth &&
-         alignment.scales.intensity < kNeverFine.intensity &&
-         rms(alignment.scales, suspicious, alpha_) <= 1;
+         alignment.observability > kLeastObservability && scales.depth < kNeverFine.depth &&
+         scales.intensity < kNeverFine.intensity;
 }
 
 bool Verdict::trusts(const AlignmentResult& alignment, int pixels) const {
-  return fits(alignment, pixels, kLeastCompared, learnt_ > 0 ? suspicious(kSurprise) : kNeverFine);
+  return meets(kFollowed, alignment, pixels) &&
+         rms(alignment.scales, suspicious(kFollowed), alignment.alpha) <= 1;
 }
 
 bool Verdict::confirms(const AlignmentResult& alignment, int pixels) const {
-  return fits(alignment, pixels, kLeastOverlap,
-              learnt_ > 0 ? suspicious(kStrictSurprise) : kStrict);
+  const ResidualScales limit = suspicious(kFound);
+  return meets(kFound, alignment, pixels) && alignment.scales.depth <= limit.depth &&
+         alignment.scales.intensity <= limit.intensity;
+}
+
+ResidualScales Verdict::suspicious(const Demands& demands) const {
+  const auto limit = [&](const Usual& usual, double always_fine, double unknown) {
+    return usual.frames > 0 ? demands.surprise * std::max(usual.scale, always_fine) : unknown;
+  };
+  return {limit(depth_, kAlwaysFine.depth, demands.unknown.depth),
+          limit(intensity_, kAlwaysFine.intensity, demands.unknown.intensity)};
 }
 
 double Verdict::relative_rms(const AlignmentResult& alignment) const {
-  return alignment.ok ? rms(alignment.scales, learnt_ > 0 ? usual_ : alignment.scales, alpha_) : 0;
+  const auto usual = [](const Usual& learnt, double now) {
+    return learnt.frames > 0 ? learnt.scale : std::max(now, 1e-9);
+  };
+  const ResidualScales& now = alignment.scales;
+  const ResidualScales level{usual(depth_, now.depth), usual(intensity_, now.intensity)};
+  return alignment.ok ? rms(now, level, alignment.alpha) : 0;
 }
 
 void Verdict::learn(const AlignmentResult& alignment) {
-  learnt_ = std::min(learnt_ + 1, kMemory);
-  usual_.depth += (alignment.scales.depth - usual_.depth) / learnt_;
-  usual_.intensity += (alignment.scales.intensity - usual_.intensity) / learnt_;
+  const auto learn_one = [](double scale, Usual& usual) {
+    if (!(scale > 0)) return;  // not compared
+    usual.frames = std::min(usual.frames + 1, kMemory);
+    usual.scale += (scale - usual.scale) / usual.frames;
+  };
+  learn_one(alignment.scales.depth, depth_);
+  learn_one(alignment.scales.intensity, intensity_);
 }
 
 }  // namespace armsreach

@@ -10,11 +10,10 @@ namespace armsreach {
 
 class Verdict {
  public:
-  explicit Verdict(double alpha) : alpha_(alpha) {}
-
+  // Of a camera that was followed to where it is.
   bool trusts(const AlignmentResult& alignment, int pixels) const;
-  // The same for a pose that nothing but the alignment speaks for: the views must overlap well and
-  // fit about as closely as usual.
+  // Of a pose that nothing but the alignment speaks for: the views must overlap well, and depth and
+  // intensity, whatever their weight, must each fit about as closely as usual.
   bool confirms(const AlignmentResult& alignment, int pixels) const;
   // Learns the usual residuals from an alignment that was trusted.
   void learn(const AlignmentResult& alignment);
@@ -22,13 +21,23 @@ class Verdict {
   double relative_rms(const AlignmentResult& alignment) const;
 
  private:
-  bool fits(const AlignmentResult& alignment, int pixels, double least_compared,
-            const ResidualScales& suspicious) const;
-  ResidualScales suspicious(double surprise) const;
+  struct Demands {
+    double overlap;          // least share of all pixels that are compared
+    double surprise;         // greatest residuals beside the usual ones
+    ResidualScales unknown;  // greatest residuals while none are usual
+  };
+  static const Demands kFollowed;
+  static const Demands kFound;
+  struct Usual {
+    double scale = 0;
+    int frames = 0;  // it was learnt from
+  };
 
-  double alpha_;
-  ResidualScales usual_;
-  int learnt_ = 0;
+  static bool meets(const Demands& demands, const AlignmentResult& alignment, int pixels);
+  ResidualScales suspicious(const Demands& demands) const;
+
+  Usual depth_;
+  Usual intensity_;
 };
 
 }  // namespace armsreach

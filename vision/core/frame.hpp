@@ -28,6 +28,8 @@ struct SensorInfo {
 };
 using SensorInfoPtr = std::shared_ptr<const SensorInfo>;
 
+struct Truth;  // devices/truth.hpp
+
 // Images are shared, never written after the frame has been published.
 struct Frame {
   std::int64_t index = 0;
@@ -36,6 +38,7 @@ struct Frame {
   cv::Mat depth;  // CV_32F metres along z, NaN unknown; or empty
   SensorInfoPtr sensor;
   std::optional<Pose> world_from_camera;  // truth, where the source knows it; never used to track
+  std::shared_ptr<const Truth> truth;     // all the rest of it, of simulated sensors; or null
   std::int64_t arrival = 0;               // steady-clock ns when it was read; for latencies only
 };
 using FramePtr = std::shared_ptr<const Frame>;

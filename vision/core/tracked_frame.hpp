@@ -31,7 +31,7 @@ struct TrackedFrame {
 
   // Reduced images, all of `camera`'s size and in the frame of world_from_camera.
   Camera camera;      // pinhole, no distortion
-  cv::Mat depth;      // CV_32F metres along z, NaN unknown; empty when the sensor has no depth
+  cv::Mat depth;      // CV_32F metres along z, NaN unknown; empty when there is (almost) none
   cv::Mat intensity;  // CV_32F 0..1, NaN where the colour camera did not see; empty without colour
   // CV_32F Tukey weight of each pixel: 1 fits the reference, 0 does not, NaN was not compared (no
   // depth here, or nothing known there). Empty where there was no alignment.

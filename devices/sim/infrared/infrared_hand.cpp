@@ -32,6 +32,7 @@ InfraredHand::InfraredHand(const HandDescription& hand, const InfraredDescriptio
 InfraredHand::Moment InfraredHand::at(double time) const {
   Moment moment;
   moment.world_from_hand = actor_.world_from_hand(time, Pose());
+  moment.truth = actor_.truth(time, Pose());
   moment.skeleton = skeleton_of(actor_.anatomy(), actor_.pose(time));
   surface_.pose(moment.skeleton, moment.surface);
   if (bracelet_) wear(*bracelet_, moment.skeleton, moment.worn);

@@ -29,6 +29,7 @@ class InfraredHand {
     PosedSurface surface;
     Worn worn;
     HandSkeleton skeleton;
+    HandTruth truth;
   };
   Moment at(double time) const;
 

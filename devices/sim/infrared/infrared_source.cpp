@@ -9,6 +9,7 @@
 #include "devices/sim/infrared/infrared_sensor.hpp"
 #include "devices/sim/infrared/infrared_view.hpp"
 #include "devices/sim/random.hpp"
+#include "devices/truth.hpp"
 #include "vision/core/time.hpp"
 
 namespace armsreach::sim {
@@ -71,6 +72,7 @@ class SimInfraredSource final : public InfraredSource {
     frame->color = sensor_.measure(view_.light(), index_);
     frame->sensor = info_;
     frame->world_from_camera = infrared_.world_from_camera;
+    frame->truth = common_truth_;
     ++index_;
     return FramePtr(std::move(frame));
   }
@@ -103,6 +105,21 @@ class SimInfraredSource final : public InfraredSource {
       truth_.markers.push_back(truth_of(piece, infrared_.camera, world_from_camera));
       truth_.markers.back().visible = view_.draw_tape(piece);
     }
+    common_truth_ = common_truth(moment.truth);
+  }
+
+  // What every sensor's truth tells.
+  std::shared_ptr<const Truth> common_truth(const HandTruth& hand) const {
+    auto truth = std::make_shared<Truth>();
+    truth->world_from_camera = truth_.world_from_camera;
+    TrueHand one;
+    one.name = "right hand";
+    if (hand.gesture) one.gesture = name(*hand.gesture);
+    one.world_from_joint = hand.world_from_joint;
+    truth->hands.push_back(one);
+    for (const MarkerTruth& marker : truth_.markers)
+      truth->markers.push_back({marker.name, marker.centre_in_world, marker.visible});
+    return truth;
   }
 
   SimOptions options_;
@@ -114,6 +131,7 @@ class SimInfraredSource final : public InfraredSource {
   InfraredView view_;
   InfraredSensor sensor_;
   InfraredTruth truth_;
+  std::shared_ptr<const Truth> common_truth_;
   std::int64_t index_ = 0;
   std::atomic<bool> stopped_{false};
 };

@@ -152,16 +152,18 @@ void InfraredView::clear() {
 
 void InfraredView::draw_things(const World& world) {
   const WorldMesh mesh = mesh_of(world);
-  for (std::size_t i = 0; i < world.things.size(); ++i) {
-    const Thing& thing = world.things[i];
-    const Material& material = world.materials[static_cast<std::size_t>(thing.material)];
+  for (std::size_t i = 0; i < world.parts.size(); ++i) {
+    const Part& part = world.parts[i];
+    const Thing& thing = world.things[static_cast<std::size_t>(part.thing)];
+    if (thing.moves) continue;
+    const Material& material = world.materials[static_cast<std::size_t>(part.material)];
     const Pose camera_from_thing =
         description_.world_from_camera.inverse() * thing.world_from_thing;
     std::vector<Vector3f> points;
     std::vector<Vector3f> normals;
     InfraredHand::Triangles triangles;
-    const auto* corners = mesh.indices.data() + mesh.things[i].first;
-    for (std::uint32_t k = 0; k < mesh.things[i].count; k += 3) {
+    const auto* corners = mesh.indices.data() + mesh.parts[i].first;
+    for (std::uint32_t k = 0; k < mesh.parts[i].count; k += 3) {
       const std::uint32_t first = static_cast<std::uint32_t>(points.size());
       for (const std::uint32_t corner : {corners[k], corners[k + 1], corners[k + 2]}) {
         points.push_back(mesh.vertices[corner].position);

@@ -22,10 +22,10 @@ World two_boards(double speed) {
     world.materials.push_back(material);
     Thing thing;
     thing.name = name;
-    thing.shape = Panel{{4, 4}};
     thing.world_from_thing =
         Pose(Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitX())), {x, 1, 0});
-    thing.material = static_cast<int>(world.materials.size()) - 1;
+    const int index = static_cast<int>(world.things.size());
+    world.parts.push_back({index, Panel{{4, 4}}, {}, static_cast<int>(world.materials.size()) - 1});
     world.things.push_back(thing);
   };
   board("white", "w", -2);

@@ -13,8 +13,14 @@ namespace {
 
 const std::vector<Shape>& shapes() {
   static const std::vector<Shape> all{
-      Box{{0.1, 0.2, 0.3}}, Cylinder{0.05, 0.2}, Panel{{1, 2}},
-      Lathe{{{0, 0}, {0.05, 0}, {0.06, 0.1}, {0.03, 0.2}, {0, 0.2}}}, Mug{0.04, 0.1, 0.004}};
+      Box{{0.1, 0.2, 0.3}},
+      Cylinder{0.05, 0.2},
+      Panel{{1, 2}},
+      Lathe{{{0, 0}, {0.05, 0}, {0.06, 0.1}, {0.03, 0.2}, {0, 0.2}}},
+      Mug{0.04, 0.1, 0.004},
+      Capsule{0.02, 0.1},
+      TaperedBox{{0.1, 0.05}, {0.04, 0.06}, 0.03},
+      Slab{{{-0.05, -0.01, 0.01}, {0, -0.03, 0.01}, {0.04, 0, 0.02}}, 0.01}};
   return all;
 }
 
@@ -53,32 +59,37 @@ double volume(const World& world) {
 TEST(Patches, MeshesAreClosed) {
   World world;
   world.materials.emplace_back();
-  world.things.push_back({"box", Box{{0.1, 0.2, 0.3}}, {}, 0});
+  world.things.push_back({"thing", {}, {}, false});
+  world.parts.push_back({0, Box{{0.1, 0.2, 0.3}}, {}, 0});
   EXPECT_NEAR(volume(world), 0.006, 1e-9);
-  world.things[0].shape = Cylinder{0.05, 0.2};
+  world.parts[0].shape = Cylinder{0.05, 0.2};
   // A regular polygon of n corners covers sin(2 pi / n) / (2 pi / n) of its circle.
   const double corner = 2 * std::numbers::pi / 96;
   EXPECT_NEAR(volume(world), std::numbers::pi * 0.05 * 0.05 * 0.2 * std::sin(corner) / corner,
               1e-8);
+  world.parts[0].shape = TaperedBox{{0.1, 0.05}, {0.04, 0.06}, 0.03};
+  // A prismatoid: the height over six times lower, four times middle, and upper area.
+  EXPECT_NEAR(volume(world), 0.03 / 6 * (0.005 + 4 * 0.07 * 0.055 + 0.0024), 1e-9);
+  world.parts[0].shape = Slab{{{-0.05, -0.01, 0.01}, {0, -0.03, 0.01}, {0.04, 0, 0.02}}, 0.01};
+  EXPECT_NEAR(volume(world), 0.01 * (0.05 * 0.03 + 0.04 * 0.03), 1e-9);
 }
 
 // If two patches shared texels, the later one's places would stand where the earlier one looks.
 TEST(Patches, EveryCornerFindsItsOwnPlaceInTheLightMap) {
   const World world = *load_world("bench");
   const WorldMesh mesh = mesh_of(world);
-  for (std::size_t i = 0; i < world.things.size(); ++i) {
-    const MeshRange& range = mesh.things[i];
+  for (std::size_t i = 0; i < world.parts.size(); ++i) {
+    const Thing& thing = world.things[static_cast<std::size_t>(world.parts[i].thing)];
+    const MeshRange& range = mesh.parts[i];
     for (std::uint32_t k = range.first; k < range.first + range.count; ++k) {
       const WorldVertex& vertex = mesh.vertices[mesh.indices[k]];
       const int x = static_cast<int>(vertex.light.x() * static_cast<float>(mesh.atlas_width));
       const int y = static_cast<int>(vertex.light.y() * static_cast<float>(mesh.atlas_height));
       const LightTexel& texel = mesh.texels.at(static_cast<std::size_t>(y * mesh.atlas_width + x));
-      const Eigen::Vector3d place =
-          world.things[i].world_from_thing * vertex.position.cast<double>();
+      const Eigen::Vector3d place = thing.world_from_thing * vertex.position.cast<double>();
       // Corners of flat faces lie on a texel's centre, those of turned shapes within a texel, which
       // is no larger than this for anything that is turned.
-      EXPECT_LT((texel.position.head<3>().cast<double>() - place).norm(), 0.012)
-          << world.things[i].name;
+      EXPECT_LT((texel.position.head<3>().cast<double>() - place).norm(), 0.012) << thing.name;
     }
   }
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -16,10 +17,12 @@ struct Hit {
   bool exact = true;  // false: within a cylinder around a turned shape, which it may yet miss
 };
 
-std::optional<Hit> cast_ray(const World& world, const Eigen::Vector3d& origin,
-                            const Eigen::Vector3d& direction);
+// With the things at these poses.
+std::optional<Hit> cast_ray(const World& world, const std::vector<Pose>& world_from_thing,
+                            const Eigen::Vector3d& origin, const Eigen::Vector3d& direction);
 
-// From a point to the nearest thing's bounding box or cylinder; 0 inside.
-double clearance(const World& world, const Eigen::Vector3d& point);
+// From a point to the nearest part's bounding box or cylinder; 0 inside.
+double clearance(const World& world, const std::vector<Pose>& world_from_thing,
+                 const Eigen::Vector3d& point);
 
 }  // namespace armsreach::sim

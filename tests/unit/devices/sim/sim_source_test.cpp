@@ -94,7 +94,9 @@ TEST(SimSource, GlazeThatFacesTheDepthCameraHasAHole) {
   board.colors = {Color::Constant(0.5)};
   world.materials = {board};
   const Eigen::AngleAxisd upright(0.5 * 3.14159265358979, Eigen::Vector3d::UnitX());
-  world.things = {{"board", Panel{{2, 2}}, Pose(Eigen::Quaterniond(upright), {0, 1, 0}), 0}};
+  world.things.resize(1);
+  world.things[0].world_from_thing = Pose(Eigen::Quaterniond(upright), {0, 1, 0});
+  world.parts = {{0, Panel{{2, 2}}, Pose(), 0}};
   const auto known = [&](double shine, const cv::Rect& place) {
     world.materials[0].shine = shine;
     const cv::Mat depth = (*make_sim_source(world, {})->next())->depth(place);
@@ -174,7 +176,7 @@ TEST(SimSource, RefusesWhatItDoesNotUnderstand) {
 
 TEST(SimSource, WorldsAreListed) {
   const auto kinds = sim_source_kinds();
-  ASSERT_FALSE(kinds.empty());
+  ASSERT_GE(kinds.size(), 1U);
   const auto worlds = kinds[0].probe();
   ASSERT_GE(worlds.size(), 2U);
   EXPECT_EQ(worlds[0].spec, "sim:bench");

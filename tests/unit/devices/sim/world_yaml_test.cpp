@@ -65,7 +65,7 @@ TEST(WorldYaml, ReadsWhatIsThere) {
   EXPECT_LT((world->materials[0].colors[0] - Color(0.2, 0.4, 0.6)).norm(), 1e-9);
   EXPECT_EQ(world->materials[0].shine, 0.25);
   const Thing& cube = world->things[0];
-  EXPECT_EQ(std::get<Box>(cube.shape).size, Eigen::Vector3d(0.1, 0.2, 0.3));
+  EXPECT_EQ(std::get<Box>(world->parts[0].shape).size, Eigen::Vector3d(0.1, 0.2, 0.3));
   // Turned by 90 degrees about z, x becomes y.
   const Eigen::Vector3d tip = cube.world_from_thing * Eigen::Vector3d(1, 0, 0);
   EXPECT_LT((tip - Eigen::Vector3d(1, 3, 3)).norm(), 1e-12);

@@ -15,6 +15,7 @@
 
 #include "devices/open.hpp"
 #include "devices/sim/worlds.hpp"
+#include "devices/truth.hpp"
 
 namespace armsreach::sim {
 namespace {
@@ -225,6 +226,8 @@ TEST(InfraredRig, SensorsOfOneWorldAgree) {
   for (std::size_t i = 0; i < 12; ++i) {
     const FramePtr frame = *(*depth)->next();
     ASSERT_EQ(frame->time, shots[i].frame->time);
+    EXPECT_EQ(frame->truth->hands[0].world_from_joint[0].matrix(),
+              shots[i].frame->truth->hands[0].world_from_joint[0].matrix());
     for (const MarkerTruth& marker : shots[i].truth.markers) {
       if (marker.name != "square") continue;
       const Pose camera_from_world = frame->world_from_camera->inverse();

@@ -1,0 +1,19 @@
+#include "devices/sim/carrier.hpp"
+
+#include "devices/sim/path.hpp"
+#include "devices/sim/wearer.hpp"
+
+namespace armsreach::sim {
+
+Carrier carrier_of(const World& world, const SensorDescription& sensor, std::uint64_t seed) {
+  if (sensor.mount == Mount::path) {
+    const CameraPath path(sensor.path ? *sensor.path : world.path, seed);
+    return [path](double time) { return path.world_from_camera(time); };
+  }
+  const Wearer wearer(*world.wearer, world.path, seed);
+  if (sensor.mount == Mount::head)
+    return [wearer](double time) { return wearer.world_from_head(time); };
+  return [wearer](double time) { return wearer.world_from_shoulder(time); };
+}
+
+}  // namespace armsreach::sim

@@ -1,0 +1,46 @@
+// Shadows to and from the things that move, drawn anew for each frame: the key light's, and the
+// dimness close below them.
+#pragma once
+
+#include <vector>
+
+#include "devices/sim/gpu_world.hpp"
+#include "devices/sim/shadow_camera.hpp"
+#include "devices/sim/world.hpp"
+#include "devices/sim/world_mesh.hpp"
+#include "render/gl_objects.hpp"
+#include "vision/core/result.hpp"
+
+namespace armsreach::sim {
+
+class MovingLight {
+ public:
+  MovingLight() = default;
+  // Draws what the still things shade, once.
+  static Result<MovingLight> make(const render::Gl& gl, const World& world, const WorldMesh& mesh,
+                                  const GpuWorld& gpu_world);
+
+  // Takes up where the things are now.
+  void follow(const World& world, const GpuWorld& gpu_world, const std::vector<Pose>& poses);
+
+  // The maps, to units 2 to 4; then, for each program in use, the uniforms of sim_shadow.glsl,
+  // sim_light_beside.glsl and sim_light_moving.glsl.
+  void bind() const;
+  void set(const render::Program& program, const Light& light) const;
+
+ private:
+  struct Map {
+    ShadowCamera camera;
+    Eigen::Matrix4f map_from_world = Eigen::Matrix4f::Identity();
+    float texel = 0;  // m
+    void draw(const World& world, const GpuWorld& gpu_world, const std::vector<Pose>& poses,
+              const WantedPart& wanted, const Eigen::Vector3d& towards_light, const Ball& ball);
+  };
+
+  std::vector<Ball> balls_;  // around each thing that moves, in its frame; radius 0: it is still
+  Map still_;
+  Map movers_;
+  Map under_;
+};
+
+}  // namespace armsreach::sim

@@ -1,0 +1,77 @@
+#include "devices/sim/world_yaml_parts.hpp"
+
+namespace armsreach::sim {
+namespace {
+
+Lathe lathe_from(const YAML::Node& node, const std::string& name) {
+  Lathe lathe;
+  for (const YAML::Node& point : node) {
+    const std::vector<double> values = numbers_from(point, name);
+    if (values.size() != 2 || values[0] < 0)
+      throw Complaint{"'" + name + "' has a point that is not [radius, z]"};
+    lathe.profile.emplace_back(values[0], values[1]);
+  }
+  if (lathe.profile.size() < 2) throw Complaint{"'" + name + "' has fewer than two points"};
+  return lathe;
+}
+
+Mug mug_from(YamlMap& map) {
+  const Eigen::Vector3d size = map.lengths<3>("mug");
+  if (size[2] >= size[0] / 2) throw Complaint{"'" + map.path("mug") + "' is all wall"};
+  return {size[0], size[1], size[2]};
+}
+
+Capsule capsule_from(YamlMap& map) {
+  const Eigen::Vector2d size = map.lengths<2>("capsule");
+  if (size[1] <= 2 * size[0])
+    throw Complaint{"'" + map.path("capsule") + "' is not longer than its two ends"};
+  return {size[0], size[1]};
+}
+
+TaperedBox tapered_from(YamlMap& map) {
+  const Eigen::Matrix<double, 5, 1> size = map.lengths<5>("tapered");
+  return {size.head<2>(), size.segment<2>(2), size[4]};
+}
+
+Slab slab_from(YamlMap map) {
+  Slab slab;
+  slab.thickness = map.number("thickness", 1e-4, 10);
+  const std::string name = map.path("outline");
+  for (const YAML::Node& station : map.need("outline")) {
+    const std::vector<double> values = numbers_from(station, name);
+    const bool good = values.size() == 3 && values[1] <= values[2] &&
+                      (slab.stations.empty() || values[0] > slab.stations.back().x);
+    if (!good)
+      throw Complaint{"'" + name + "' has a station that is not [x, low, high] with increasing x"};
+    slab.stations.push_back({values[0], values[1], values[2]});
+  }
+  if (slab.stations.size() < 2) throw Complaint{"'" + name + "' has fewer than two stations"};
+  map.refuse_others();
+  return slab;
+}
+
+}  // namespace
+
+Shape shape_from(YamlMap& map) {
+  std::vector<Shape> shapes;
+  if (map.find("box")) shapes.push_back(Box{map.lengths<3>("box")});
+  if (map.find("panel")) shapes.push_back(Panel{map.lengths<2>("panel")});
+  if (map.find("cylinder")) {
+    const Eigen::Vector2d size = map.lengths<2>("cylinder");
+    shapes.push_back(Cylinder{size[0], size[1]});
+  }
+  if (map.find("mug")) shapes.push_back(mug_from(map));
+  if (map.find("capsule")) shapes.push_back(capsule_from(map));
+  if (map.find("tapered")) shapes.push_back(tapered_from(map));
+  if (const YAML::Node node = map.find("lathe"))
+    shapes.push_back(lathe_from(node, map.path("lathe")));
+  if (const YAML::Node node = map.find("slab"))
+    shapes.push_back(slab_from({node, map.path("slab")}));
+  if (shapes.size() != 1)
+    throw Complaint{
+        "'" + map.path("") +
+        "' needs one shape: box, cylinder, panel, mug, lathe, capsule, tapered or slab"};
+  return shapes.front();
+}
+
+}  // namespace armsreach::sim
