@@ -48,6 +48,20 @@ GridPlanes planes_around(const HandAnatomy& anatomy, const HandSurfaceOptions& o
   return planes;
 }
 
+bool near_nail(const HandAnatomy& anatomy, const HandSkeleton& skeleton, const Vector3f& point) {
+  for (const Finger finger :
+       {Finger::thumb, Finger::index, Finger::middle, Finger::ring, Finger::little}) {
+    const bool thumb = finger == Finger::thumb;
+    const std::size_t i = static_cast<std::size_t>(finger) - (thumb ? 0 : 1);
+    const double length = thumb ? anatomy.thumb.lengths[2] : anatomy.fingers[i].lengths[2];
+    const Pose& bone = skeleton[joint_of(finger, thumb ? 2 : 3)];
+    const Eigen::Vector3d p = bone.inverse() * Eigen::Vector3d(point.cast<double>());
+    if (p.y() > 0.42 * length && p.y() < 1.1 * length && p.z() < 0 && p.norm() < 1.2 * length)
+      return true;
+  }
+  return false;
+}
+
 Affine affine(const Pose& pose) { return pose.matrix().topRows<3>().cast<float>(); }
 
 const Pose& pose_of(const HandSkeleton& skeleton, Bone bone) {
@@ -139,6 +153,9 @@ void HandSurface::settle(const Clothing& clothing) {
     for (std::size_t i = 0; i < vertices.size(); ++i)
       vertices[i] = onto_surface(0.5F * (vertices[i] + sums[i] / counts[i]));
   }
+  // Nails are finer than the rest.
+  const HandSkeleton skeleton = skeleton_of(anatomy_, rest_pose());
+  rest_ = refined(rest_, [&](const Vector3f& p) { return near_nail(anatomy_, skeleton, p); });
   rest_normals_.reserve(vertices.size());
   for (Vector3f& vertex : vertices) {
     vertex = onto_surface(vertex);
@@ -163,7 +180,8 @@ HandSurface::Binding HandSurface::bound(const Vector3f& point, const std::vector
   std::array<float, kBoneCount> shares{};
   binding.first_lobe = static_cast<std::uint32_t>(near_lobes_.size());
   for (std::size_t i = 0; i < lobes.size(); ++i) {
-    if (distances[i] < nearest + std::max(kReach, lobes[i].melt)) near_lobes_.push_back(static_cast<std::uint16_t>(i));
+    if (distances[i] < nearest + std::max(kReach, lobes[i].melt))
+      near_lobes_.push_back(static_cast<std::uint16_t>(i));
     const float closeness = std::max(0.0F, 1 - (distances[i] - nearest) / kShared);
     const float weight = closeness * closeness;
     shares[lobes[i].bone_a] += (1 - alongs[i]) * weight;

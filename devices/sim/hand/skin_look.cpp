@@ -81,9 +81,13 @@ Vector3f skin_at(const SkinColors& tone, const HandAnatomy& anatomy, Bone bone, 
   skin *= 1 - folds_at(*segment, p, n);
   if (!segment->last) return skin;
   const float nail = nail_at(*segment, p, n);
-  const float white = smooth_step(0.86F, 0.93F, along);
-  skin *= 1 - 0.5F * nail * (1 - nail);  // the fold around it
-  const Vector3f plate = tone.nail + 0.35F * white * (Vector3f(0.95F, 0.92F, 0.88F) - tone.nail);
+  const float fold = 4 * nail * (1 - nail);  // around it
+  skin *= 1 - 0.16F * fold;
+  // The free edge is white, the root paler.
+  const float across = p.x() / segment->radius;
+  const float white = smooth_step(0.86F, 0.92F, along + 0.16F * across * across) +
+                      0.5F * (1 - smooth_step(0.55F, 0.66F, along));
+  const Vector3f plate = tone.nail + 0.45F * white * (Vector3f(0.97F, 0.93F, 0.9F) - tone.nail);
   return skin + nail * (plate - skin);
 }
 
