@@ -47,6 +47,14 @@ TEST(HandYaml, ReadsWhatIsThere) {
   EXPECT_EQ(hand.keys[1].hold, "mug");
 }
 
+TEST(HandYaml, AGripIsAGraspAroundSomething) {
+  const auto hands =
+      read("hands: [{side: right, frame: world, keys: [{t: 0, grip: 0.03, at: [0, 0, 0]}]}]");
+  ASSERT_TRUE(hands.ok()) << hands.error().message();
+  EXPECT_EQ(hands->front().keys[0].gesture, Gesture::grasp);
+  EXPECT_EQ(hands->front().keys[0].grip, 0.03);
+}
+
 TEST(HandYaml, SaysWhatIsWrong) {
   const auto complaint = [](const std::string& from, const std::string& to) {
     std::string text = kScript;
@@ -65,6 +73,7 @@ TEST(HandYaml, SaysWhatIsWrong) {
   EXPECT_THAT(complaint("seed: 4", "sed: 4"), HasSubstr("hands[0].sed"));
   EXPECT_THAT(read("hands: 3").error().message(), HasSubstr("'hands' is not a list"));
   EXPECT_THAT(read("hands: [").error().message(), HasSubstr("not readable"));
+  EXPECT_THAT(complaint("pose: 7", "grip: 3"), HasSubstr("grip"));
   EXPECT_FALSE(read("").ok());
 }
 
