@@ -176,7 +176,7 @@ TEST(SimSource, RefusesWhatItDoesNotUnderstand) {
 
 TEST(SimSource, WorldsAreListed) {
   const auto kinds = sim_source_kinds();
-  ASSERT_GE(kinds.size(), 1U);
+  ASSERT_EQ(kinds.size(), 2U);  // sim and sim-hand
   const auto worlds = kinds[0].probe();
   ASSERT_GE(worlds.size(), 2U);
   EXPECT_EQ(worlds[0].spec, "sim:bench");
