@@ -76,6 +76,8 @@ class Tracker {
   // Makes a reference of a view, unless it was made of `taken`, the one before.
   void take(const ReferenceViewPtr& view, ReferenceViewPtr& taken, Reference& reference) const;
   Attempt best_attempt(Timestamp time);
+  // Lost, or found again just now.
+  bool searching(Timestamp time) const { return !motion_.recent(time) || time < search_until_; }
   bool follows(const Attempt& tried, Timestamp time) const;
   Attempt attempt(Aligner& aligner, const Reference& reference, const Pose& start) const;
   // Tries the proposed view; when it fits, the world as it was known is given up for it.
@@ -97,6 +99,7 @@ class Tracker {
   Reference proposed_;
   ReferenceViewPtr map_view_;       // given last; map_ was made from it, or proposed since
   ReferenceViewPtr proposed_view_;  // that proposed_ was made from
+  Timestamp search_until_ = 0;
   double intensity_offset_ = 0;
 };
 
