@@ -57,6 +57,7 @@ Status demo(const std::string& out) {
   options.events = folder / "events.jsonl";
   options.stats = folder / "stats.json";
   options.map = folder / "map.ot";
+  std::filesystem::remove(options.map, error);  // a tour starts afresh
   std::printf("No display here: filming the tour (about a minute).\n");
   const Status status = run(options, tour());
   if (status) {

@@ -10,6 +10,7 @@
 #include "app/cli/run_options.hpp"
 #include "app/cli/source_kinds.hpp"
 #include "app/pipelines/presenter.hpp"
+#include "app/pipelines/vision_stages.hpp"
 #include "app/pipelines/workspace.hpp"
 #include "app/runtime/event_log.hpp"
 #include "devices/rig_yaml.hpp"
@@ -58,14 +59,14 @@ Result<std::unique_ptr<Rig>> open_rig(const RunOptions& options) {
 }
 
 // The sensor called main, or else the first one that measures depth, or else the first.
-const SensorInfo& main_sensor(const Rig& rig) {
-  const SensorInfo* with_depth = nullptr;
+SensorInfoPtr main_sensor(const Rig& rig) {
+  SensorInfoPtr with_depth;
   for (const RigSensor& sensor : rig.sensors()) {
-    const SensorInfo& info = *sensor.source->sensor();
-    if (info.name == "main") return info;
-    if (info.depth_camera && !with_depth) with_depth = &info;
+    SensorInfoPtr info = sensor.source->sensor();
+    if (info->name == "main") return info;
+    if (info->depth_camera && !with_depth) with_depth = std::move(info);
   }
-  return with_depth ? *with_depth : *rig.sensors().front().source->sensor();
+  return with_depth ? with_depth : rig.sensors().front().source->sensor();
 }
 
 PresenterOptions presenter_options(const RunOptions& options, const Config& config,
@@ -85,15 +86,33 @@ PresenterOptions presenter_options(const RunOptions& options, const Config& conf
   return out;
 }
 
-Status check_meshes(const Config& config, const std::string& where) {
+Status check_mesh(const std::string& mesh, const std::string& where) {
   const std::vector<std::string>& known = render::mesh_names();
+  if (std::count(known.begin(), known.end(), mesh)) return ok();
+  std::string names;
+  for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
+  return Error{"no mesh is called '" + mesh + "'", where, "there are: " + names};
+}
+
+Status check_meshes(const Config& config, const std::string& where) {
   for (const Action& action : config.actions) {
-    if (action.insert.empty() || std::count(known.begin(), known.end(), action.insert)) continue;
-    std::string names;
-    for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
-    return Error{"no mesh is called '" + action.insert + "'", where, "insert one of: " + names};
+    if (action.insert.empty()) continue;
+    if (auto status = check_mesh(action.insert, where); !status) return status;
   }
   return ok();
+}
+
+// What --map or --session left the last time; an empty world otherwise.
+Result<SavedWorld> load_world(const RunOptions& options, const Config& config) {
+  const mapping::VoxelMapOptions map = mapper_options(config.mapping).map;
+  if (!options.map.empty()) return load_map(options.map, map);
+  if (options.session.empty()) return SavedWorld{};
+  auto world = load_session(options.session, map);
+  if (!world) return world;
+  for (const SavedObject& object : world->objects) {
+    if (auto status = check_mesh(object.mesh, options.session); !status) return status.error();
+  }
+  return world;
 }
 
 void print_summary(const RunSummary& s) {
@@ -117,28 +136,31 @@ Status run(const RunOptions& options, const Config& config) {
     return Error{"threads: false is for --pace every-frame", options.config,
                  "remove it, or add --pace every-frame"};
   }
-  if (!options.map.empty() && !config.mapping.enabled) {
-    return Error{"--map needs mapping, which the configuration switches off", options.config,
-                 "remove --map or mapping: {enabled: false}"};
+  if (!config.mapping.enabled && !(options.map.empty() && options.session.empty())) {
+    return Error{"--map and --session need mapping, which the configuration switches off",
+                 options.config, "remove them, or mapping: {enabled: false}"};
   }
   if (auto status = check_meshes(config, options.config); !status) return status;
+  auto world = load_world(options, config);
+  if (!world) return world.error();
   auto rig = open_rig(options);
   if (!rig) return rig.error();
-  const SensorInfo& sensor = main_sensor(**rig);
+  const SensorInfoPtr sensor = main_sensor(**rig);
 
   EventLog log;
   if (auto status = log.open(options.events); !status) return status;
-  auto presenter = Presenter::make(presenter_options(options, config, sensor));
+  auto presenter = Presenter::make(presenter_options(options, config, *sensor));
   if (!presenter) return presenter.error();
 
   WorkspaceOptions workspace;
-  workspace.sensor = sensor.name;
+  workspace.sensor = sensor;
   workspace.pace = pace;
   workspace.frames = options.frames;
   workspace.trajectory = options.trajectory;
   workspace.stats = options.stats;
   workspace.map = options.map;
-  auto summary = run_workspace(**rig, **presenter, log, config, workspace);
+  workspace.session = options.session;
+  auto summary = run_workspace(**rig, **presenter, log, config, workspace, *std::move(world));
   const Status logged = log.close();
   if (!summary) return summary.error();
   if (!logged) return logged;

@@ -1,5 +1,7 @@
 // armsreach run: the command line of a run.
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "app/cli/commands.hpp"
 #include "app/cli/run_options.hpp"
@@ -12,7 +14,9 @@ void add_run_command(CLI::App& app, Task* task) {
   auto* source = command->add_option(
       "--source", o->sources, "what to look through: SPEC or NAME=SPEC, see `armsreach sources`");
   command->add_option("--rig", o->rig, "YAML file of named sensors")->excludes(source);
-  command->add_option("--experience", o->experiences, "workspace")
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "--experience", [](const auto&) {}, "workspace, the only one there is")
       ->delimiter(',')
       ->check(CLI::IsMember({"workspace"}));
   command->add_option("--camera", o->camera, "camera YAML in place of the source's own");
@@ -28,7 +32,12 @@ void add_run_command(CLI::App& app, Task* task) {
   command->add_option("--trajectory", o->trajectory, "camera poses in TUM format");
   command->add_option("--events", o->events, "events, one JSON object a line");
   command->add_option("--stats", o->stats, "statistics as JSON");
-  command->add_option("--map", o->map, "map to save at the end (OctoMap .ot)");
+  auto* map = command->add_option(
+      "--map", o->map, "map to go on with if the file exists, and to save (OctoMap .ot)");
+  command
+      ->add_option("--session", o->session,
+                   "folder to go on with and to save: map, key frames, objects")
+      ->excludes(map);
   command->add_option("--config", o->config, "YAML, see 'Configuration' in the README");
   command->add_option("--seed", o->seed, "of everything random")->capture_default_str();
   command->callback([task, o] { *task = [o] { return run(*o); }; });

@@ -14,7 +14,6 @@ namespace armsreach::app {
 struct RunOptions {
   std::vector<std::string> sources;  // SPEC, or NAME=SPEC
   std::string rig;
-  std::vector<std::string> experiences = {"workspace"};
   std::string camera;
   std::string display = "auto";
   std::string pace = "live";
@@ -25,6 +24,7 @@ struct RunOptions {
   std::string events;
   std::string stats;
   std::string map;
+  std::string session;
   std::string config;
   std::uint64_t seed = 1;
 };

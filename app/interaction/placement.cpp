@@ -1,7 +1,9 @@
 #include "app/interaction/placement.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -31,6 +33,10 @@ FaultEvent nothing_there() {
 }
 
 }  // namespace
+
+Placement::Placement(std::vector<PlacedObject> objects) : objects_(std::move(objects)) {
+  for (const PlacedObject& object : objects_) next_id_ = std::max(next_id_, object.id + 1);
+}
 
 Events Placement::click(const Click& click, const WorldView* world,
                         const Eigen::Vector3d& viewer_in_world, Timestamp time) {

@@ -25,6 +25,10 @@ struct PlacedObject {
 
 class Placement {
  public:
+  Placement() = default;
+  // Goes on with objects placed before.
+  explicit Placement(std::vector<PlacedObject> objects);
+
   // `world` may be null while nothing is mapped. `viewer_in_world` is what the object faces.
   Events click(const Click& click, const WorldView* world, const Eigen::Vector3d& viewer_in_world,
                Timestamp time);

@@ -47,8 +47,11 @@ void UserInput::add(const UserInput& more) {
   delete_selected |= more.delete_selected;
 }
 
-Composer::Composer(const EventLog& log, StageRows stage_rows, Latency latency)
-    : log_(log), stage_rows_(std::move(stage_rows)), latency_(std::move(latency)) {}
+Composer::Composer(const EventLog& log, Placement placement, StageRows stage_rows, Latency latency)
+    : log_(log),
+      stage_rows_(std::move(stage_rows)),
+      latency_(std::move(latency)),
+      placement_(std::move(placement)) {}
 
 ComposedPtr Composer::process(const ComposeInput& input) {
   for (const UserInput& user : input.user) pending_.add(user);
@@ -102,7 +105,7 @@ void Composer::add_video(const TrackedFrame& tracked, render::Scene* scene) {
 }
 
 void Composer::add_tracking(const TrackedFrame& tracked, render::Scene* scene) {
-  scene->pose_known = trusted(tracked);
+  scene->pose_known = tracked.state != TrackingState::lost;
   scene->tracking_state = armsreach::name(tracked.state);
   scene->tracking_rms = tracked.rms;
   scene->tracking_inliers = tracked.inliers;

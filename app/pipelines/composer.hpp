@@ -46,10 +46,12 @@ class Composer final : public Stage<ComposeInput, ComposedPtr> {
  public:
   using StageRows = std::function<std::vector<render::StageRow>()>;
   using Latency = std::function<double()>;  // s, of the overlay that was drawn last
-  Composer(const EventLog& log, StageRows stage_rows, Latency latency);
+  Composer(const EventLog& log, Placement placement, StageRows stage_rows, Latency latency);
 
   std::string name() const override { return "composing"; }
   ComposedPtr process(const ComposeInput& input) override;
+
+  const Placement& placement() const { return placement_; }  // after the run
 
  private:
   void add_video(const TrackedFrame& tracked, render::Scene* scene);

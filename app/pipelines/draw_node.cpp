@@ -5,8 +5,8 @@
 
 namespace armsreach::app {
 
-DrawNode::DrawNode(Presenter& presenter, Journal& journal, EventLog& log, Connections connections,
-                   std::function<void()> stop_sources)
+DrawNode::DrawNode(Presenter& presenter, Journal& journal, EventLog& log, Pace pace,
+                   Connections connections, std::function<void()> stop_sources)
     : Node("drawing",
            [&log](const std::string& stage, const std::string& what) {
              log.write({log.now(), FaultEvent{stage, what, "see 'Displays' in the README"}});
@@ -14,6 +14,7 @@ DrawNode::DrawNode(Presenter& presenter, Journal& journal, EventLog& log, Connec
       presenter_(presenter),
       journal_(journal),
       log_(log),
+      pace_(pace),
       connections_(std::move(connections)),
       stop_sources_(std::move(stop_sources)) {
   if (presenter_.interactive()) {
@@ -23,9 +24,8 @@ DrawNode::DrawNode(Presenter& presenter, Journal& journal, EventLog& log, Connec
 
 bool DrawNode::turn() {
   const Next next = next_scene();
-  while (auto tracked = connections_.tracked->try_pop()) {
-    if (*tracked) journal_.record(**tracked);
-  }
+  write_journal(next);
+  if (progress_.due()) progress_.show(journal_.progress());
   if (next.ended) {
     finish();
     return false;
@@ -56,6 +56,18 @@ DrawNode::Next DrawNode::next_scene() {
     if (connections_.scenes->finished()) return {nullptr, false, true};
   }
   return {nullptr, false, false};
+}
+
+// Live, whatever is there, since scenes are skipped; else the entry of the scene's own frame, so
+// that events are written in the same order whichever thread was faster.
+void DrawNode::write_journal(const Next& next) {
+  const bool all = pace_ == Pace::live || next.ended;
+  if (!all && !next.fresh) return;
+  do {
+    const auto entry = all ? connections_.journal->try_pop() : connections_.journal->pop();
+    if (!entry) return;
+    if (*entry) journal_.record(**entry);
+  } while (all);
 }
 
 // Scenes may have been skipped, their events are not.

@@ -10,7 +10,9 @@
 #include "app/pipelines/journal.hpp"
 #include "app/pipelines/presenter.hpp"
 #include "app/runtime/event_log.hpp"
+#include "app/runtime/progress.hpp"
 #include "app/runtime/stage.hpp"
+#include "app/runtime/wiring.hpp"
 
 namespace armsreach::app {
 
@@ -18,12 +20,12 @@ class DrawNode final : public Node {
  public:
   struct Connections {
     std::shared_ptr<Connection<ComposedPtr>> scenes;
-    std::shared_ptr<Connection<TrackedFramePtr>> tracked;  // every event
+    std::shared_ptr<Connection<std::optional<JournalEntry>>> journal;  // every event
     std::shared_ptr<Connection<UserInput>> user;
   };
 
-  DrawNode(Presenter& presenter, Journal& journal, EventLog& log, Connections connections,
-           std::function<void()> stop_sources);
+  DrawNode(Presenter& presenter, Journal& journal, EventLog& log, Pace pace,
+           Connections connections, std::function<void()> stop_sources);
 
   bool turn() override;
 
@@ -38,14 +40,17 @@ class DrawNode final : public Node {
     bool ended = false;
   };
   Next next_scene();
+  void write_journal(const Next& next);
   void write_events(const Composed& composed);
   void draw(const Composed& composed, bool fresh);
   void finish();
   void fail(const Error& error);
 
   Presenter& presenter_;
+  Progress progress_;
   Journal& journal_;
   EventLog& log_;
+  Pace pace_;
   Connections connections_;
   std::function<void()> stop_sources_;
   ComposedPtr shown_;

@@ -1,25 +1,41 @@
 #include "app/pipelines/journal.hpp"
 
+#include <cstdio>
+
 #include "vision/core/trajectory.hpp"
 
 namespace armsreach::app {
+
+std::optional<JournalEntry> entry_from_tracked(const TrackedFramePtr& tracked) {
+  if (!tracked) return std::nullopt;
+  return JournalEntry{
+      tracked->frame->time, tracked->frame->arrival, tracked->world_from_camera, tracked->state,
+      tracked->rms,         tracked->inliers};
+}
 
 double Journal::rate() const {
   const double seconds = 1e-9 * static_cast<double>(last_arrival_ - first_arrival_);
   return seconds > 0 ? static_cast<double>(frames_ - 1) / seconds : 0;
 }
 
-void Journal::record(const TrackedFrame& tracked) {
-  if (frames_++ == 0) first_arrival_ = tracked.frame->arrival;
-  last_arrival_ = tracked.frame->arrival;
-  if (trusted(tracked)) {
+std::string Journal::progress() const {
+  char line[96];
+  std::snprintf(line, sizeof line, "%lld frames, %lld tracked, %.1f Hz: %s",
+                static_cast<long long>(frames_), static_cast<long long>(tracked_frames_), rate(),
+                state_ ? std::string(name(*state_)).c_str() : "waiting");
+  return line;
+}
+
+void Journal::record(const JournalEntry& entry) {
+  if (frames_++ == 0) first_arrival_ = entry.arrival;
+  last_arrival_ = entry.arrival;
+  if (entry.state != TrackingState::lost) {
     ++tracked_frames_;
-    if (file_.is_open())
-      write_tum_pose(file_.stream(), {tracked.frame->time, tracked.world_from_camera});
+    if (file_.is_open()) write_tum_pose(file_.stream(), {entry.time, entry.world_from_camera});
   }
-  if (state_ == tracked.state) return;
-  state_ = tracked.state;
-  log_.write({tracked.frame->time, TrackingEvent{tracked.state, tracked.rms, tracked.inliers}});
+  if (state_ == entry.state) return;
+  state_ = entry.state;
+  log_.write({entry.time, TrackingEvent{entry.state, entry.rms, entry.inliers}});
 }
 
 }  // namespace armsreach::app

@@ -14,6 +14,7 @@ namespace armsreach::app {
 
 struct MapState {
   ReferenceViewPtr reference;  // null until something is mapped, as is `view`
+  ReferenceViewPtr proposed;   // from where a lost camera may be; null until one was lost
   std::shared_ptr<const mapping::MapView> view;
   render::SurfacePtr surface;
 };

@@ -1,4 +1,4 @@
-// The tracker and the mapper as stages.
+// The tracker, the mapper and the relocaliser as stages.
 #pragma once
 
 #include <memory>
@@ -7,12 +7,15 @@
 #include "app/pipelines/map_state.hpp"
 #include "app/runtime/stage.hpp"
 #include "app/session/config.hpp"
+#include "app/session/saved_world.hpp"
 #include "vision/alignment/tracker.hpp"
-#include "vision/core/result.hpp"
 #include "vision/core/tracked_frame.hpp"
 #include "vision/mapping/mapper.hpp"
+#include "vision/relocalisation/relocaliser.hpp"
 
 namespace armsreach::app {
+
+mapping::MapperOptions mapper_options(const MappingConfig& config);
 
 struct TrackInput {
   FramePtr frame;
@@ -21,7 +24,9 @@ struct TrackInput {
 
 class TrackingStage final : public Stage<TrackInput, TrackedFramePtr> {
  public:
-  explicit TrackingStage(const TrackingConfig& config);
+  // In a map that is there already the camera is lost until it is found; without one, the world is
+  // where the camera is first.
+  TrackingStage(const TrackingConfig& config, bool map_exists);
   std::string name() const override { return "tracking"; }
   TrackedFramePtr process(const TrackInput& input) override;
 
@@ -29,18 +34,48 @@ class TrackingStage final : public Stage<TrackInput, TrackedFramePtr> {
   Tracker tracker_;
 };
 
-class MappingStage final : public Stage<TrackedFramePtr, MapStatePtr> {
+// Where a lost camera may be.
+struct Proposal {
+  Camera camera;  // of the reduced images
+  Pose world_from_camera;
+  std::int64_t frame = -1;  // index of the frame that was recognised
+};
+using ProposalPtr = std::shared_ptr<const Proposal>;
+
+// Keeps key frames while the camera is tracked, and recognises them once it is lost.
+class RelocalisationStage final : public Stage<TrackedFramePtr, ProposalPtr> {
+ public:
+  explicit RelocalisationStage(const relocalisation::KeyFrames& known);
+  std::string name() const override { return "relocalisation"; }
+  ProposalPtr process(const TrackedFramePtr& tracked) override;
+
+  const relocalisation::KeyFrames& key_frames() const { return relocaliser_.key_frames(); }
+
+ private:
+  relocalisation::Relocaliser relocaliser_;
+};
+
+struct MapInput {
+  TrackedFramePtr tracked;
+  ProposalPtr proposal;  // the newest; null until there is one
+};
+
+class MappingStage final : public Stage<MapInput, MapStatePtr> {
  public:
   explicit MappingStage(const MappingConfig& config);
+  // Goes on with a map, which a `camera` (of reduced images) may first be seen from its origin.
+  MappingStage(const MappingConfig& config, mapping::VoxelMap map, const Camera& camera);
   std::string name() const override { return "mapping"; }
-  MapStatePtr process(const TrackedFramePtr& tracked) override;
+  MapStatePtr process(const MapInput& input) override;
 
-  Status save(const std::string& path) const;  // as OctoMap .ot, after the run
+  const MapStatePtr& state() const { return state_; }  // the last one published; null before
+  const mapping::VoxelMap& map() const { return mapper_.map(); }
 
  private:
   mapping::Mapper mapper_;
   SurfaceCollector surface_;
-  MapStatePtr state_;  // the last one published
+  ProposalPtr proposal_;  // the last one that was drawn
+  MapStatePtr state_;
 };
 
 }  // namespace armsreach::app

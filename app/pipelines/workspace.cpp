@@ -14,122 +14,174 @@
 #include "app/runtime/memory.hpp"
 #include "app/runtime/output_file.hpp"
 #include "app/runtime/runner.hpp"
+#include "vision/alignment/frame_reducer.hpp"
 
 namespace armsreach::app {
 namespace {
 
 using TrackingNode = StageNode<TrackInput, TrackedFramePtr>;
-using MappingNode = StageNode<TrackedFramePtr, MapStatePtr>;
+using RelocalisationNode = StageNode<TrackedFramePtr, ProposalPtr>;
+using MappingNode = StageNode<MapInput, MapStatePtr>;
 using ComposingNode = StageNode<ComposeInput, ComposedPtr>;
 
-constexpr size_t kJournalLength = 64;  // tracked frames waiting to be written down
-constexpr int kUserLag = 2;            // frames from a picture to the click on it, every-frame
+constexpr size_t kJournalLength = 8192;  // entries waiting to be written down
+constexpr int kUserLag = 2;              // frames from a picture to the click on it, every-frame
 
 // All stages of the experience and how they are joined:
 //
 //   capture -> tracking -> composing -> drawing
-//                 |  ^         ^  ^        |
-//                 v  | map     |  |  user  |
-//              mapping --------+  +--------+
+//                |  | ^        ^  ^        |
+//                |  | | map    |  |  user  |
+//                |  v |        |  +--------+
+//                | mapping ----+
+//                v  ^
+//       relocalisation
 class Workspace {
  public:
   Workspace(Rig& rig, Presenter& presenter, EventLog& log, const Config& config,
-            const WorkspaceOptions& options);
+            const WorkspaceOptions& options, SavedWorld world);
 
   Result<RunSummary> run();
 
  private:
-  void join_tracking();
-  void join_mapping();
-  void join_composing();
-  void join_drawing(Presenter& presenter);
+  void join_tracking(bool map_exists);
+  void join_mapping(std::optional<mapping::VoxelMap> map);
+  void join_relocalisation(const relocalisation::KeyFrames& known);
+  void join_composing(const std::vector<SavedObject>& objects);
+  void join_drawing();
   FaultHandler fault_handler();
   std::vector<Node*> nodes();
   std::vector<render::StageRow> stage_rows();
   std::int64_t drops(const Node& node) const;
   RunSummary summary(double seconds);
   Status write_stats(const RunSummary& summary);
-  Status save_map();
+  Status save_world();
   Status first_failure();
 
   const Config& config_;
   const WorkspaceOptions& options_;
   EventLog& log_;
+  Presenter& presenter_;
   Wiring wiring_;
   Journal journal_;
 
   std::shared_ptr<Connection<FramePtr>> frames_ = wiring_.driving<FramePtr>();
   std::shared_ptr<Connection<TrackedFramePtr>> to_map_ = wiring_.driving<TrackedFramePtr>();
+  std::shared_ptr<Connection<TrackedFramePtr>> to_relocalise_ = wiring_.driving<TrackedFramePtr>();
   std::shared_ptr<Connection<TrackedFramePtr>> to_compose_ = wiring_.driving<TrackedFramePtr>();
-  std::shared_ptr<Connection<TrackedFramePtr>> to_journal_;
+  std::shared_ptr<Connection<std::optional<JournalEntry>>> to_journal_;
   std::shared_ptr<Connection<ComposedPtr>> scenes_ = wiring_.driving<ComposedPtr>();
   Following<MapStatePtr> map_for_tracking_{wiring_, config_.lag};
   Following<MapStatePtr> map_for_composing_{wiring_, config_.lag};
+  Following<ProposalPtr> proposal_{wiring_, config_.lag};
   FollowingEvents<UserInput> user_{wiring_, kUserLag};
 
   CaptureNode capture_;
   std::unique_ptr<TrackingNode> tracking_;
+  std::unique_ptr<RelocalisationNode> relocalisation_;
   std::unique_ptr<MappingNode> mapping_;
-  MappingStage* mapping_stage_ = nullptr;  // owned by its node
   std::unique_ptr<ComposingNode> composing_;
   std::unique_ptr<DrawNode> drawing_;
+  // Owned by their nodes; asked after the run for what is to be saved. Null without mapping.
+  RelocalisationStage* relocalisation_stage_ = nullptr;
+  MappingStage* mapping_stage_ = nullptr;
+  Composer* composer_ = nullptr;
 };
 
 Workspace::Workspace(Rig& rig, Presenter& presenter, EventLog& log, const Config& config,
-                     const WorkspaceOptions& options)
+                     const WorkspaceOptions& options, SavedWorld world)
     : config_(config),
       options_(options),
       log_(log),
+      presenter_(presenter),
       wiring_{options.pace, config.threads},
       journal_(log),
-      to_journal_(wiring_.queue<TrackedFramePtr>(kJournalLength)),
-      capture_(rig, {options.sensor, options.pace, options.frames}, log) {
+      to_journal_(wiring_.queue<std::optional<JournalEntry>>(kJournalLength)),
+      capture_(rig, {options.sensor->name, options.pace, options.frames}, log) {
   capture_.outlet().connect(frames_);
   capture_.at_end([this] { frames_->close(); });
-  join_tracking();
-  if (config_.mapping.enabled) join_mapping();
-  join_composing();
-  join_drawing(presenter);
+  join_tracking(world.map.has_value());
+  if (config_.mapping.enabled) {
+    join_relocalisation(world.key_frames);
+    join_mapping(std::move(world.map));
+  }
+  join_composing(world.objects);
+  join_drawing();
 }
 
-void Workspace::join_tracking() {
+void Workspace::join_tracking(bool map_exists) {
   tracking_ = std::make_unique<TrackingNode>(
-      std::make_unique<TrackingStage>(config_.tracking),
+      std::make_unique<TrackingStage>(config_.tracking, map_exists),
       [this]() -> std::optional<TrackInput> {
         auto frame = frames_->pop();
         if (!frame) return std::nullopt;
         return TrackInput{*frame, mapping_ ? map_for_tracking_.take() : nullptr};
       },
       fault_handler());
-  tracking_->outlet().connect(to_journal_);
+  tracking_->outlet().connect(to_journal_, entry_from_tracked);
   tracking_->outlet().connect(to_compose_);
   tracking_->at_end([this] {
     frames_->close();
     map_for_tracking_.connection()->close();
-    for (const auto& out : {to_journal_, to_map_, to_compose_}) out->close();
+    to_journal_->close();
+    for (const auto& out : {to_relocalise_, to_map_, to_compose_}) out->close();
   });
 }
 
-void Workspace::join_mapping() {
-  auto stage = std::make_unique<MappingStage>(config_.mapping);
+void Workspace::join_relocalisation(const relocalisation::KeyFrames& known) {
+  auto stage = std::make_unique<RelocalisationStage>(known);
+  relocalisation_stage_ = stage.get();
+  relocalisation_ = std::make_unique<RelocalisationNode>(
+      std::move(stage), [this] { return to_relocalise_->pop(); }, fault_handler());
+  tracking_->outlet().connect(to_relocalise_);
+  relocalisation_->outlet().connect(proposal_.connection());
+  relocalisation_->at_end([this] {
+    to_relocalise_->close();
+    proposal_.connection()->close();
+  });
+}
+
+void Workspace::join_mapping(std::optional<mapping::VoxelMap> map) {
+  std::unique_ptr<MappingStage> stage;
+  if (map) {
+    const Camera camera = FrameReducer(options_.sensor, config_.tracking.width).camera();
+    stage = std::make_unique<MappingStage>(config_.mapping, *std::move(map), camera);
+    map_for_tracking_.start_with(stage->state());
+    map_for_composing_.start_with(stage->state());
+  } else {
+    stage = std::make_unique<MappingStage>(config_.mapping);
+  }
   mapping_stage_ = stage.get();
   mapping_ = std::make_unique<MappingNode>(
-      std::move(stage), [this] { return to_map_->pop(); }, fault_handler());
+      std::move(stage),
+      [this]() -> std::optional<MapInput> {
+        auto tracked = to_map_->pop();
+        if (!tracked) return std::nullopt;
+        return MapInput{*tracked, proposal_.take()};
+      },
+      fault_handler());
   tracking_->outlet().connect(to_map_);
   mapping_->outlet().connect(map_for_tracking_.connection());
   mapping_->outlet().connect(map_for_composing_.connection());
   mapping_->at_end([this] {
     to_map_->close();
+    proposal_.connection()->close();
     map_for_tracking_.connection()->close();
     map_for_composing_.connection()->close();
   });
 }
 
-void Workspace::join_composing() {
+void Workspace::join_composing(const std::vector<SavedObject>& objects) {
+  std::vector<PlacedObject> placed;
+  for (const SavedObject& object : objects) {
+    placed.push_back({object.id, object.mesh, {0, object.world_from_object}, false});
+  }
+  auto composer = std::make_unique<Composer>(
+      log_, Placement(std::move(placed)), [this] { return stage_rows(); },
+      [this] { return drawing_->latency().percentile(0.5); });
+  composer_ = composer.get();
   composing_ = std::make_unique<ComposingNode>(
-      std::make_unique<Composer>(
-          log_, [this] { return stage_rows(); },
-          [this] { return drawing_->latency().percentile(0.5); }),
+      std::move(composer),
       [this]() -> std::optional<ComposeInput> {
         auto tracked = to_compose_->pop();
         if (!tracked) return std::nullopt;
@@ -145,10 +197,10 @@ void Workspace::join_composing() {
   });
 }
 
-void Workspace::join_drawing(Presenter& presenter) {
+void Workspace::join_drawing() {
   drawing_ = std::make_unique<DrawNode>(
-      presenter, journal_, log_, DrawNode::Connections{scenes_, to_journal_, user_.connection()},
-      [this] { capture_.stop(); });
+      presenter_, journal_, log_, wiring_.pace,
+      DrawNode::Connections{scenes_, to_journal_, user_.connection()}, [this] { capture_.stop(); });
   drawing_->at_end([this] {
     scenes_->close();
     to_journal_->close();
@@ -165,6 +217,7 @@ FaultHandler Workspace::fault_handler() {
 
 std::vector<Node*> Workspace::nodes() {
   std::vector<Node*> all = {&capture_, tracking_.get()};
+  if (relocalisation_) all.push_back(relocalisation_.get());
   if (mapping_) all.push_back(mapping_.get());
   all.push_back(composing_.get());
   all.push_back(drawing_.get());
@@ -173,6 +226,7 @@ std::vector<Node*> Workspace::nodes() {
 
 std::int64_t Workspace::drops(const Node& node) const {
   if (&node == tracking_.get()) return frames_->drops();
+  if (&node == relocalisation_.get()) return to_relocalise_->drops();
   if (&node == mapping_.get()) return to_map_->drops();
   if (&node == composing_.get()) return to_compose_->drops();
   if (&node == drawing_.get()) return scenes_->drops();
@@ -200,14 +254,23 @@ Result<RunSummary> Workspace::run() {
   const RunSummary result = summary(spent.count());
   // Every output is finished whatever became of the others; the first complaint is the answer.
   for (const Status& status :
-       {first_failure(), journal_.close(), write_stats(result), save_map()}) {
+       {first_failure(), journal_.close(), write_stats(result), save_world()}) {
     if (!status) return status.error();
   }
   return result;
 }
 
-Status Workspace::save_map() {
-  return options_.map.empty() || !mapping_stage_ ? ok() : mapping_stage_->save(options_.map);
+Status Workspace::save_world() {
+  if (!mapping_stage_) return ok();
+  const mapping::VoxelGrid& grid = mapping_stage_->map().grid();
+  if (!options_.map.empty()) return save_map(options_.map, grid);
+  if (options_.session.empty()) return ok();
+  const WorldViewPtr view = mapping_stage_->state() ? mapping_stage_->state()->view : nullptr;
+  std::vector<SavedObject> objects;
+  for (const PlacedObject& object : composer_->placement().objects()) {
+    objects.push_back({object.id, object.mesh, Placement::world_from_object(object, view.get())});
+  }
+  return save_session(options_.session, grid, relocalisation_stage_->key_frames(), objects);
 }
 
 RunSummary Workspace::summary(double seconds) {
@@ -241,6 +304,7 @@ Status Workspace::write_stats(const RunSummary& result) {
                                  {{"p50", latency.percentile(0.5)},
                                   {"p95", latency.percentile(0.95)},
                                   {"p99", latency.percentile(0.99)}}},
+                                {"film_frames_dropped", presenter_.dropped_film_frames()},
                                 {"peak_memory_mb", peak_memory_mb()},
                                 {"stages", stages}};
   return write_file(options_.stats, [&](std::ostream& out) { out << stats.dump(2) << "\n"; });
@@ -255,8 +319,9 @@ Status Workspace::first_failure() {
 }  // namespace
 
 Result<RunSummary> run_workspace(Rig& rig, Presenter& presenter, EventLog& log,
-                                 const Config& config, const WorkspaceOptions& options) {
-  return Workspace(rig, presenter, log, config, options).run();
+                                 const Config& config, const WorkspaceOptions& options,
+                                 SavedWorld world) {
+  return Workspace(rig, presenter, log, config, options, std::move(world)).run();
 }
 
 }  // namespace armsreach::app

@@ -10,18 +10,20 @@
 #include "app/runtime/event_log.hpp"
 #include "app/runtime/wiring.hpp"
 #include "app/session/config.hpp"
+#include "app/session/saved_world.hpp"
 #include "devices/rig.hpp"
 #include "vision/core/result.hpp"
 
 namespace armsreach::app {
 
 struct WorkspaceOptions {
-  std::string sensor = "main";  // of the rig, that is tracked and shown
+  SensorInfoPtr sensor;  // of the rig, that is tracked and shown
   Pace pace = Pace::live;
   std::optional<std::int64_t> frames;
   std::string trajectory;  // files to write, or ""
   std::string stats;
-  std::string map;
+  std::string map;      // file to save the map in, or ""
+  std::string session;  // folder to save the map and all that belongs to it in, or ""
 };
 
 // What a run came to, also written as JSON with `stats`.
@@ -34,7 +36,9 @@ struct RunSummary {
   double latency_p95 = 0;
 };
 
+// `world` is gone on with; without a map in it the run makes its own.
 Result<RunSummary> run_workspace(Rig& rig, Presenter& presenter, EventLog& log,
-                                 const Config& config, const WorkspaceOptions& options);
+                                 const Config& config, const WorkspaceOptions& options,
+                                 SavedWorld world);
 
 }  // namespace armsreach::app

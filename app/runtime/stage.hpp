@@ -83,16 +83,29 @@ class Node {
 template <class T>
 class Outlet {
  public:
-  void connect(std::shared_ptr<Connection<T>> to) { connections_.push_back(std::move(to)); }
+  void connect(const std::shared_ptr<Connection<T>>& to) {
+    connect(to, [](const T& value) { return value; });
+  }
+  // To a connection that carries what `convert` makes of the output.
+  template <class U, class Convert>
+  void connect(std::shared_ptr<Connection<U>> to, Convert convert) {
+    ends_.push_back(
+        {[to, convert](const T& value) { to->push(convert(value)); }, [to] { to->close(); }});
+  }
+
   void push(const T& value) {
-    for (auto& connection : connections_) connection->push(value);
+    for (const End& end : ends_) end.push(value);
   }
   void close() {
-    for (auto& connection : connections_) connection->close();
+    for (const End& end : ends_) end.close();
   }
 
  private:
-  std::vector<std::shared_ptr<Connection<T>>> connections_;
+  struct End {
+    std::function<void(const T&)> push;
+    std::function<void()> close;
+  };
+  std::vector<End> ends_;
 };
 
 template <class Input, class Output>

@@ -54,6 +54,9 @@ class Following {
 
   const std::shared_ptr<Connection<T>>& connection() const { return connection_; }
 
+  // What is taken until a first value comes.
+  void start_with(T value) { last_ = std::move(value); }
+
   const T& take() {
     auto value = live_ ? connection_->try_pop() : connection_->pop();
     if (value && *value != T{}) last_ = std::move(*value);

@@ -24,7 +24,7 @@ struct Action {
 
 struct TrackingConfig {
   double alpha = 0.95;  // weight of depth against intensity, 0..1
-  int iterations = 5;   // at each resolution
+  int iterations = 0;   // at each resolution; 0: what the width needs
   int width = 80;       // px of the finest images aligned: 80 or 160
 };
 

@@ -162,7 +162,9 @@ TEST(EndToEndStanding, TheTeapotStandsOnTheKitchenTable) {
 
 TEST(EndToEndStanding, TheTeapotStandsOnTheLivingroomFloor) {
   ARMSREACH_RECORDING_OR_SKIP(path, "rgbd/livingroom");
-  // The floor is glossy: even under the true poses its corners slide by 1.5 to 2.2 px rms.
+  // A glossy floor: its corners are partly reflections and slide (at [420, 400] by 2.2 px rms even
+  // under the true poses), and beside the chair's legs what is followed is not the floor at all.
+  // The spot is one where it is.
   const Deviation d = deviation("tum:" + path.string(), "[440, 430]");
   EXPECT_GT(d.samples, 500);
   EXPECT_LT(d.rms, 2.0);

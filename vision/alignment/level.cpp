@@ -11,7 +11,8 @@ namespace {
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 constexpr float kSameSurface = 1 / 1.03F;  // inverse depths of one surface, beside the nearest
 constexpr float kAnyStep = 1e9F;
-constexpr int kSlack = 32;  // floats that the kernels may read beyond a plane
+constexpr int kLeastSide = 8;  // px of a level that can still tell anything
+constexpr int kSlack = 32;     // floats that the kernels may read beyond a plane
 
 void copy_rows(const cv::Mat& image, int stride, std::vector<float>& plane) {
   std::fill(plane.begin(), plane.end(), kUnknown);
@@ -72,6 +73,15 @@ void Level::differentiate() {
                         inverse_depth_x.data(), inverse_depth_y.data());
   kernels.differentiate(intensity.data(), width(), height(), stride(), kAnyStep, intensity_x.data(),
                         intensity_y.data());
+}
+
+void Pyramid::assign(const Camera& camera, const cv::Mat& depth, const cv::Mat& intensity,
+                     int levels) {
+  const int side = std::min(camera.width, camera.height);
+  while (levels > 1 && side >> (levels - 1) < kLeastSide) --levels;
+  levels_.resize(levels);
+  levels_[0].assign(camera, depth, intensity);
+  for (int i = 1; i < levels; ++i) levels_[i].assign_half(levels_[i - 1]);
 }
 
 }  // namespace armsreach

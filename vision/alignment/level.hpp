@@ -57,11 +57,8 @@ class Level {
 // The finest level first, each half the size of the one before. Keeps its memory when reassigned.
 class Pyramid {
  public:
-  void assign(const Camera& camera, const cv::Mat& depth, const cv::Mat& intensity, int levels) {
-    levels_.resize(levels);
-    levels_[0].assign(camera, depth, intensity);
-    for (int i = 1; i < levels; ++i) levels_[i].assign_half(levels_[i - 1]);
-  }
+  // As many levels as were asked for, or fewer of an image too small for them.
+  void assign(const Camera& camera, const cv::Mat& depth, const cv::Mat& intensity, int levels);
   int size() const { return static_cast<int>(levels_.size()); }
   const Level& operator[](int level) const { return levels_[level]; }
 

@@ -1,5 +1,6 @@
 #include "vision/alignment/tracker.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace armsreach {
@@ -13,18 +14,26 @@ bool sees_anything(const cv::Mat& depth) {
   return 10 * known > depth.total();
 }
 
+// Coarser by one level, and with iterations enough to come from where the motion ends up.
+AlignerOptions searching(AlignerOptions options) {
+  for (int& iterations : options.iterations) iterations = std::max(iterations, 10);
+  options.iterations.push_back(20);
+  return options;
+}
+
 }  // namespace
 
 Tracker::Tracker(TrackerOptions options)
     : options_(std::move(options)),
       aligner_(options_.aligner),
+      searching_aligner_(searching(options_.aligner)),
       motion_(options_.motion),
       verdict_(options_.aligner.alpha) {}
 
 TrackedFrame Tracker::reduced(const FramePtr& frame) {
   if (!reducer_) {
     reducer_.emplace(frame->sensor, options_.width);
-    motion_.start(options_.start, frame->time);
+    motion_.start(options_.start.value_or(Pose()), frame->time);
   }
   ReducedFrame images = reducer_->reduce(*frame);
   TrackedFrame tracked;
@@ -33,52 +42,84 @@ TrackedFrame Tracker::reduced(const FramePtr& frame) {
   tracked.depth = std::move(images.depth);
   tracked.intensity = std::move(images.intensity);
   camera_.assign(tracked.camera, tracked.depth, tracked.intensity,
-                 static_cast<int>(options_.aligner.iterations.size()));
+                 static_cast<int>(searching_aligner_.options().iterations.size()));
   return tracked;
 }
 
-TrackedFrame Tracker::track(const FramePtr& frame, const ReferenceViewPtr& map_reference) {
+TrackedFrame Tracker::track(const FramePtr& frame, const ReferenceViewPtr& map_reference,
+                            const ReferenceViewPtr& proposed) {
   TrackedFrame tracked = reduced(frame);
-  take_map_reference(map_reference);
-  if (own_.empty() && map_.empty()) {
-    motion_.start(options_.start, frame->time);  // however long it took to see something
-    tracked.world_from_camera = options_.start;
+  take(map_reference, map_view_, map_);
+  const bool unknown_world = own_.empty() && map_.empty();
+  if (unknown_world && options_.start) {
+    motion_.start(*options_.start, frame->time);  // however long it took to see something
+    tracked.world_from_camera = *options_.start;
     if (sees_anything(tracked.depth)) keep_as_reference(tracked, nullptr);
     return tracked;
   }
-  Attempt best = best_attempt(frame->time);
-  tracked.reference = best.reference->frame;
-  tracked.rms = verdict_.relative_rms(best.alignment);
-  tracked.inliers = best.alignment.inliers;
-  tracked.compared = best.alignment.compared;
-  tracked.depth_noise = best.alignment.scales.depth;
-  tracked.intensity_offset = best.alignment.intensity_offset;
-  tracked.weights = std::move(best.alignment.weights);
-  if (best.trusted) {
-    tracked.state = TrackingState::tracking;
-    tracked.world_from_camera = best.world_from_camera;
-    motion_.update(best.world_from_camera, frame->time);
-    verdict_.learn(best.alignment);
-    intensity_offset_ = best.alignment.intensity_offset;
-    keep_as_reference(tracked, best.reference);
-  } else {
-    tracked.state = TrackingState::lost;
-    tracked.world_from_camera = motion_.predicted(frame->time);
-    motion_.coast(frame->time);
+  if (!unknown_world) {
+    Attempt best = best_attempt(frame->time);
+    report(best, tracked);
+    if (best.trusted) {
+      tracked.state = TrackingState::tracking;
+      motion_.update(best.world_from_camera, frame->time);
+      verdict_.learn(best.alignment);
+      keep_as_reference(tracked, best.reference);
+      return tracked;
+    }
   }
+  if (proposed && relocalise(proposed, tracked)) return tracked;
+  tracked.state = TrackingState::lost;
+  tracked.world_from_camera = motion_.predicted(frame->time);
+  motion_.coast(frame->time);
   return tracked;
 }
 
-void Tracker::take_map_reference(const ReferenceViewPtr& view) {
-  if (view == map_view_) return;
-  map_view_ = view;
+void Tracker::report(Attempt& attempt, TrackedFrame& tracked) {
+  tracked.world_from_camera = attempt.world_from_camera;
+  tracked.reference = attempt.reference->frame;
+  tracked.rms = verdict_.relative_rms(attempt.alignment);
+  tracked.inliers = attempt.alignment.inliers;
+  tracked.compared = attempt.alignment.compared;
+  tracked.depth_noise = attempt.alignment.scales.depth;
+  tracked.intensity_offset = attempt.alignment.intensity_offset;
+  tracked.weights = std::move(attempt.alignment.weights);
+  if (attempt.trusted) intensity_offset_ = attempt.alignment.intensity_offset;
+}
+
+void Tracker::take(const ReferenceViewPtr& view, ReferenceViewPtr& taken,
+                   Reference& reference) const {
+  if (view == taken) return;
+  taken = view;
   if (!view) {
-    map_ = {};
+    reference = {};
     return;
   }
-  map_.pyramid.assign(view->camera, view->depth, view->intensity, camera_.size());
-  map_.world_from_camera = view->world_from_reference;
-  map_.frame = view->frame;
+  reference.pyramid.assign(view->camera, view->depth, view->intensity, camera_.size());
+  reference.world_from_camera = view->world_from_reference;
+  reference.frame = view->frame;
+}
+
+bool Tracker::relocalise(const ReferenceViewPtr& proposed, TrackedFrame& tracked) {
+  take(proposed, proposed_view_, proposed_);
+  Attempt found;
+  found.reference = &proposed_;
+  // From where the view was drawn, and, should the camera have stayed, from where it was last.
+  for (const Pose& start : {proposed_.world_from_camera, motion_.measured()}) {
+    found.alignment = searching_aligner_.align(camera_, proposed_.pyramid,
+                                               proposed_.world_from_camera.inverse() * start, 0);
+    found.trusted = verdict_.confirms(found.alignment, pixels());
+    if (found.trusted) break;
+  }
+  if (!found.trusted) return false;
+  found.world_from_camera = proposed_.world_from_camera * found.alignment.reference_from_camera;
+  report(found, tracked);
+  tracked.state = TrackingState::relocalised;
+  motion_.start(tracked.world_from_camera, tracked.frame->time);
+  std::swap(map_, proposed_);
+  proposed_view_ = nullptr;
+  keep_as_reference(tracked, nullptr);
+  return true;
 }
 
 // The map before the tracker's own frame, where the camera is predicted before where it was seen
@@ -102,8 +143,8 @@ Tracker::Attempt Tracker::attempt(const Reference& reference, const Pose& start,
                                  reference.world_from_camera.inverse() * start, intensity_offset_);
   out.world_from_camera = reference.world_from_camera * out.alignment.reference_from_camera;
   out.reference = &reference;
-  out.trusted = verdict_.trusts(out.alignment, camera_[0].width() * camera_[0].height()) &&
-                motion_.plausible(out.world_from_camera, time);
+  out.trusted =
+      verdict_.trusts(out.alignment, pixels()) && motion_.plausible(out.world_from_camera, time);
   return out;
 }
 

@@ -29,7 +29,9 @@ struct TrackerOptions {
   // at first.
   double key_frame_inliers = 0.85;
   MotionOptions motion;
-  Pose start;  // world_from_camera of the first frame
+  // world_from_camera of the first frame. Nothing: the world is a map that exists already, and the
+  // camera is lost until it is found in it.
+  std::optional<Pose> start = Pose();
 };
 
 class Tracker {
@@ -38,7 +40,14 @@ class Tracker {
 
   // `map_reference` may be null, may have been drawn some frames ago, and may be given again.
   // Frames come in the order of their times, from one sensor.
-  TrackedFrame track(const FramePtr& frame, const ReferenceViewPtr& map_reference);
+  //
+  // `proposed` is a view of the map from where a relocaliser believes the camera to be, or to have
+  // been some frames ago. A camera that is lost is aligned against it from its pose, wherever that
+  // is, and must fit closely; a frame that does is `relocalised`, and tracking goes on from there
+  // against that view until `map_reference` is another one than now. It may be null, may be given
+  // again, and says nothing to a camera that is not lost.
+  TrackedFrame track(const FramePtr& frame, const ReferenceViewPtr& map_reference,
+                     const ReferenceViewPtr& proposed = nullptr);
 
  private:
   // An image pair with a known pose.
@@ -56,22 +65,30 @@ class Tracker {
     bool trusted = false;
   };
 
+  int pixels() const { return camera_[0].width() * camera_[0].height(); }
   TrackedFrame reduced(const FramePtr& frame);
-  void take_map_reference(const ReferenceViewPtr& view);
+  // Makes a reference of a view, unless it was made of `taken`, the one before.
+  void take(const ReferenceViewPtr& view, ReferenceViewPtr& taken, Reference& reference) const;
   Attempt best_attempt(Timestamp time);
   Attempt attempt(const Reference& reference, const Pose& start, Timestamp time);
+  // Tries the proposed view; when it fits, the world as it was known is given up for it.
+  bool relocalise(const ReferenceViewPtr& proposed, TrackedFrame& tracked);
+  void report(Attempt& attempt, TrackedFrame& tracked);
   // Takes the frame over as own reference, unless the key frame `used` is still good.
   void keep_as_reference(const TrackedFrame& tracked, const Reference* used);
 
   TrackerOptions options_;
   Aligner aligner_;
+  Aligner searching_aligner_;  // from farther away, at leisure
   MotionModel motion_;
   Verdict verdict_;
   std::optional<FrameReducer> reducer_;
   Pyramid camera_;  // of the frame being tracked
   Reference own_;
   Reference map_;
-  ReferenceViewPtr map_view_;  // that map_ was made from
+  Reference proposed_;
+  ReferenceViewPtr map_view_;       // given last; map_ was made from it, or proposed since
+  ReferenceViewPtr proposed_view_;  // that proposed_ was made from
   double intensity_offset_ = 0;
 };
 

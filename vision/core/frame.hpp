@@ -26,6 +26,7 @@ struct SensorInfo {
 
   const Camera& camera() const { return depth_camera ? *depth_camera : *color_camera; }
 };
+using SensorInfoPtr = std::shared_ptr<const SensorInfo>;
 
 // Images are shared, never written after the frame has been published.
 struct Frame {
@@ -33,7 +34,7 @@ struct Frame {
   Timestamp time = 0;
   cv::Mat color;  // CV_8UC3 BGR, or CV_8UC1 from a grey camera, or empty
   cv::Mat depth;  // CV_32F metres along z, NaN unknown; or empty
-  std::shared_ptr<const SensorInfo> sensor;
+  SensorInfoPtr sensor;
   std::optional<Pose> world_from_camera;  // truth, where the source knows it; never used to track
   std::int64_t arrival = 0;               // steady-clock ns when it was read; for latencies only
 };

@@ -44,17 +44,27 @@ std::vector<SurfaceBlockPtr> Mapper::take_surface() {
 }
 
 ReferenceViewPtr Mapper::reference(const TrackedFrame& tracked) const {
-  const Camera& camera = tracked.camera;
-  const int width = options_.reference_width > 0 ? options_.reference_width : camera.width;
   RayCastOptions options = options_.cast;
-  if (width == camera.width) {
+  if (options_.reference_width == 0 || options_.reference_width == tracked.camera.width) {
     options.expected_depth = tracked.depth;
     options.weights = tracked.weights;
   }
+  return cast_view(tracked.camera, tracked.world_from_camera,
+                   tracked.frame ? tracked.frame->index : -1, options);
+}
+
+ReferenceViewPtr Mapper::reference(const Camera& camera, const Pose& world_from_camera,
+                                   std::int64_t frame) const {
+  return cast_view(camera, world_from_camera, frame, options_.cast);
+}
+
+ReferenceViewPtr Mapper::cast_view(const Camera& camera, const Pose& world_from_camera,
+                                   std::int64_t frame, const RayCastOptions& options) const {
+  const int width = options_.reference_width > 0 ? options_.reference_width : camera.width;
   auto view = std::make_shared<ReferenceView>(
       cast(map_.grid(), resized(camera, width, camera.height * width / camera.width),
-           tracked.world_from_camera, options));
-  view->frame = tracked.frame ? tracked.frame->index : -1;
+           world_from_camera, options));
+  view->frame = frame;
   return view;
 }
 

@@ -51,10 +51,17 @@ class Mapper {
   std::shared_ptr<const MapView> take_view();
   std::vector<SurfaceBlockPtr> take_surface();
   ReferenceViewPtr reference(const TrackedFrame& tracked) const;
+  // From any pose, with nothing known of what is seen there: for a place that was recognised.
+  // `camera` is a tracked frame's; `frame` is the index of the frame that it is about.
+  ReferenceViewPtr reference(const Camera& camera, const Pose& world_from_camera,
+                             std::int64_t frame) const;
 
   const VoxelMap& map() const { return map_; }
 
  private:
+  ReferenceViewPtr cast_view(const Camera& camera, const Pose& world_from_camera,
+                             std::int64_t frame, const RayCastOptions& options) const;
+
   MapperOptions options_;
   VoxelMap map_;
   std::int64_t processed_ = 0;

@@ -203,15 +203,13 @@ TEST_F(TumRecordingTest, BrokenRecordingsAreRefusedByNameWithARemedy) {
   }
 }
 
-TEST_F(TumRecordingTest, LinksMayStayInsideButNotLeadOut) {
+// As of a recording that was thinned by linking some of its images.
+TEST_F(TumRecordingTest, LinksMadeByItsKeeperAreFollowed) {
   const TemporaryFolder elsewhere;
   cv::imwrite(elsewhere / "1.png", test::color_image(kWidth, kHeight, 1));
   folder_.remove("rgb/1.png");
-  fs::create_symlink(folder_ / "rgb/0.png", folder_ / "rgb/1.png");
-  EXPECT_TRUE(open());
-  folder_.remove("rgb/1.png");
   fs::create_symlink(elsewhere / "1.png", folder_ / "rgb/1.png");
-  EXPECT_EQ(refusal().where, (folder_ / "rgb.txt:3").string());
+  EXPECT_TRUE(open());
 }
 
 TEST_F(TumRecordingTest, NoFolder) {

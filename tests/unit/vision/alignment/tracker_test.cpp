@@ -157,6 +157,78 @@ TEST(Tracker, AdmitsThatItCannotFollowAJump) {
   }
 }
 
+// Carried away under a cover: 0.9 m and 60 deg from where it was seen last.
+const Pose kElsewhere(so3_exp({-0.2, -0.9, 0}), Eigen::Vector3d(0.8, -0.4, 0.1));
+
+TEST(Tracker, GoesOnFromAProposedPlaceThatIsRight) {
+  const SyntheticRoom room = kinect_room();
+  Tracker tracker(options());
+  ReferenceViewPtr old_map;
+  int i = 0;
+  for (; i < 6; ++i) {
+    old_map = drawn(SyntheticRoom(), path(i), i);
+    tracker.track(frame_at(room, i, path(i)), old_map);
+  }
+  for (; i < 20; ++i) tracker.track(covered(frame_at(room, i, path(i))), old_map);
+  EXPECT_EQ(tracker.track(frame_at(room, i, kElsewhere), old_map).state, TrackingState::lost);
+  // The proposal is 4 cm and 3 deg off, as it is when the camera moved on while it was computed.
+  Vector6d moved;
+  moved << 0.03, -0.01, 0.025, 0.03, 0.04, -0.02;
+  const ReferenceViewPtr proposed = drawn(SyntheticRoom(), kElsewhere * Pose::exp(moved), i);
+  const TrackedFrame found = tracker.track(frame_at(room, ++i, kElsewhere), old_map, proposed);
+  EXPECT_EQ(found.state, TrackingState::relocalised);
+  EXPECT_FALSE(trusted(found));  // its successor is
+  EXPECT_EQ(found.reference, proposed->frame);
+  EXPECT_LT(distance(found.world_from_camera, kElsewhere), 0.01);
+  // A map that has not heard of it yet does not lead it astray.
+  for (int k = 0; k < 4; ++k) {
+    const TrackedFrame on = tracker.track(frame_at(room, ++i, kElsewhere), old_map, proposed);
+    EXPECT_EQ(on.state, TrackingState::tracking);
+    EXPECT_LT(distance(on.world_from_camera, kElsewhere), 0.01);
+  }
+}
+
+TEST(Tracker, DoesNotBelieveAProposedPlaceThatIsWrong) {
+  const SyntheticRoom room = kinect_room();
+  Tracker tracker(options());
+  int i = 0;
+  for (; i < 6; ++i) tracker.track(frame_at(room, i, path(i)), nullptr);
+  const Pose wrong[] = {Pose(so3_exp({-0.2, 0.9, 0}), Eigen::Vector3d(-0.8, -0.4, 0.1)),
+                        kElsewhere * Pose(so3_exp({0, 0.5, 0}), Eigen::Vector3d(0.3, 0, 0)),
+                        kStart};
+  for (const Pose& pose : wrong) {
+    const ReferenceViewPtr proposed = drawn(SyntheticRoom(), pose, i);
+    const TrackedFrame still = tracker.track(frame_at(room, ++i, kElsewhere), nullptr, proposed);
+    EXPECT_EQ(still.state, TrackingState::lost);
+  }
+}
+
+TEST(Tracker, AProposedPlaceSaysNothingToACameraThatIsNotLost) {
+  const SyntheticRoom room = kinect_room();
+  Tracker tracker(options());
+  const ReferenceViewPtr proposed = drawn(SyntheticRoom(), kElsewhere, 0);
+  for (int i = 0; i < 4; ++i) {
+    const TrackedFrame tracked = tracker.track(frame_at(room, i, path(i)), nullptr, proposed);
+    EXPECT_LT(distance(tracked.world_from_camera, path(i)), 0.01);
+    EXPECT_NE(tracked.state, TrackingState::relocalised);
+  }
+}
+
+TEST(Tracker, IsLostInAKnownMapUntilItIsFound) {
+  const SyntheticRoom room = kinect_room();
+  TrackerOptions anywhere = options();
+  anywhere.start.reset();
+  Tracker tracker(anywhere);
+  EXPECT_EQ(tracker.track(frame_at(room, 0, kElsewhere), nullptr).state, TrackingState::lost);
+  const ReferenceViewPtr wrong = drawn(SyntheticRoom(), kStart, 0);
+  EXPECT_EQ(tracker.track(frame_at(room, 1, kElsewhere), nullptr, wrong).state,
+            TrackingState::lost);
+  const ReferenceViewPtr right = drawn(SyntheticRoom(), kElsewhere, 0);
+  EXPECT_EQ(tracker.track(frame_at(room, 2, kElsewhere), nullptr, right).state,
+            TrackingState::relocalised);
+  EXPECT_EQ(tracker.track(frame_at(room, 3, kElsewhere), nullptr).state, TrackingState::tracking);
+}
+
 TEST(Tracker, AdmitsThatABlankWallTellsNothing) {
   SyntheticRoom room = kinect_room();
   room.furniture.clear();

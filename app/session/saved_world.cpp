@@ -1,0 +1,134 @@
+#include "app/session/saved_world.hpp"
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "app/runtime/output_file.hpp"
+#include "vision/mapping/octree_codec.hpp"
+#include "vision/relocalisation/codec.hpp"
+
+namespace armsreach::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// Opens `path` and reads it; nothing when there is no such file.
+template <class T, class Read>
+Result<std::optional<T>> read_if_there(const fs::path& path, Read read) {
+  if (!fs::exists(path)) return std::optional<T>();
+  std::ifstream in(path, std::ios::binary);
+  if (!in || fs::is_directory(path)) {
+    return Error{"cannot be read", path.string(), "check that it is a file and that it is yours"};
+  }
+  Result<T> value = read(in, path.string());
+  if (!value) return value.error();
+  return std::optional<T>(*std::move(value));
+}
+
+json json_from_object(const SavedObject& object) {
+  const Eigen::Vector3d& t = object.world_from_object.translation();
+  const Eigen::Quaterniond& q = object.world_from_object.rotation();
+  return {{"id", object.id},
+          {"object", object.mesh},
+          {"world_from_object",
+           {{"translation", {t.x(), t.y(), t.z()}}, {"rotation", {q.x(), q.y(), q.z(), q.w()}}}}};
+}
+
+SavedObject object_from_json(const json& from) {
+  const json& pose = from.at("world_from_object");
+  const auto t = pose.at("translation").get<std::array<double, 3>>();
+  const auto q = pose.at("rotation").get<std::array<double, 4>>();
+  const Eigen::Quaterniond rotation(q[3], q[0], q[1], q[2]);
+  if (!(std::abs(rotation.norm() - 1) < 1e-3)) throw std::runtime_error("a rotation is not unit");
+  return {from.at("id").get<std::int64_t>(), from.at("object").get<std::string>(),
+          Pose(rotation.normalized(), {t[0], t[1], t[2]})};
+}
+
+Result<std::vector<SavedObject>> read_objects(std::istream& in, const std::string& where) {
+  std::vector<SavedObject> objects;
+  try {
+    for (const json& object : json::parse(in)) objects.push_back(object_from_json(object));
+  } catch (const std::exception& e) {
+    return Error{"not a list of objects: " + std::string(e.what()), where,
+                 "remove the file to enter the session without its objects"};
+  }
+  return objects;
+}
+
+// Written beside and then moved into place: whatever happens, either the old or the new is there.
+template <class Write>
+Status replace_file(const fs::path& path, Write write) {
+  const fs::path partial = path.string() + ".part";
+  if (auto status = write_file(partial.string(), write); !status) return status;
+  std::error_code error;
+  fs::rename(partial, path, error);
+  if (error) {
+    return Error{"cannot be replaced: " + error.message(), path.string(),
+                 "what was to be written is in " + partial.string()};
+  }
+  return ok();
+}
+
+}  // namespace
+
+Result<SavedWorld> load_map(const std::string& path, const mapping::VoxelMapOptions& options) {
+  auto map =
+      read_if_there<mapping::VoxelMap>(path, [&](std::istream& in, const std::string& where) {
+        return mapping::read_octree(in, where, options);
+      });
+  if (!map) return map.error();
+  SavedWorld world;
+  world.map = *std::move(map);
+  return world;
+}
+
+Status save_map(const std::string& path, const mapping::VoxelGrid& grid) {
+  return replace_file(path, [&](std::ostream& out) { mapping::write_octree(out, grid); });
+}
+
+Result<SavedWorld> load_session(const std::string& folder,
+                                const mapping::VoxelMapOptions& options) {
+  const fs::path root(folder);
+  if (fs::exists(root) && !fs::is_directory(root)) {
+    return Error{"is a file", folder, "give --session a folder"};
+  }
+  auto world = load_map((root / "map.ot").string(), options);
+  if (!world || !world->map) return world;  // key frames and objects mean nothing without a map
+  auto key_frames = read_if_there<relocalisation::KeyFrames>(root / "key_frames.bin",
+                                                             relocalisation::read_key_frames);
+  if (!key_frames) return key_frames.error();
+  auto objects = read_if_there<std::vector<SavedObject>>(root / "objects.json", read_objects);
+  if (!objects) return objects.error();
+  world->key_frames = key_frames->value_or(relocalisation::KeyFrames());
+  world->objects = objects->value_or(std::vector<SavedObject>());
+  return world;
+}
+
+Status save_session(const std::string& folder, const mapping::VoxelGrid& grid,
+                    const relocalisation::KeyFrames& key_frames,
+                    const std::vector<SavedObject>& objects) {
+  const fs::path root(folder);
+  std::error_code error;
+  fs::create_directories(root, error);
+  if (error) return Error{error.message(), folder, "give --session a folder that is yours"};
+  json list = json::array();
+  for (const SavedObject& object : objects) list.push_back(json_from_object(object));
+  for (const Status& status :
+       {save_map((root / "map.ot").string(), grid),
+        replace_file(root / "key_frames.bin",
+                     [&](std::ostream& out) { relocalisation::write_key_frames(out, key_frames); }),
+        replace_file(root / "objects.json",
+                     [&](std::ostream& out) { out << list.dump(1) << "\n"; })}) {
+    if (!status) return status;
+  }
+  return ok();
+}
+
+}  // namespace armsreach::app

@@ -1,0 +1,40 @@
+// What a run leaves behind and a later one enters again: the dense map, the key frames that a lost
+// camera is recognised by, and the objects that stand in the map.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vision/core/pose.hpp"
+#include "vision/core/result.hpp"
+#include "vision/mapping/voxel_map.hpp"
+#include "vision/relocalisation/relocaliser.hpp"
+
+namespace armsreach::app {
+
+struct SavedObject {
+  std::int64_t id = 0;
+  std::string mesh;
+  Pose world_from_object;
+};
+
+struct SavedWorld {
+  std::optional<mapping::VoxelMap> map;
+  relocalisation::KeyFrames key_frames;
+  std::vector<SavedObject> objects;
+};
+
+// A map alone, OctoMap's .ot. A file that does not exist yet is an empty world, not an error.
+// `options` are for a map to go on with; the file's resolution replaces theirs.
+Result<SavedWorld> load_map(const std::string& path, const mapping::VoxelMapOptions& options);
+Status save_map(const std::string& path, const mapping::VoxelGrid& grid);
+
+// A session: a folder with map.ot, key_frames.bin and objects.json, each of which may be missing.
+Result<SavedWorld> load_session(const std::string& folder, const mapping::VoxelMapOptions& options);
+Status save_session(const std::string& folder, const mapping::VoxelGrid& grid,
+                    const relocalisation::KeyFrames& key_frames,
+                    const std::vector<SavedObject>& objects);
+
+}  // namespace armsreach::app

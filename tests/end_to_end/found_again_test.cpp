@@ -1,0 +1,134 @@
+// A camera that is lost and found again, and worlds that are entered another day, through the
+// command line.
+#include <fstream>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/edited_recording.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/recordings.hpp"
+#include "vision/core/trajectory.hpp"
+
+namespace armsreach::test {
+namespace {
+
+using nlohmann::json;
+using ::testing::ElementsAre;
+
+// Runs every frame without drawing; `more` are further arguments.
+void track(const TemporaryFolder& folder, const std::string& source,
+           const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments = {
+      "run",  "--source",     source,           "--pace",   "every-frame",     "--display",
+      "none", "--trajectory", folder / "t.txt", "--events", folder / "e.jsonl"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const ProgramResult run = run_armsreach(arguments);
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+}
+
+std::vector<std::string> tracking_states(const TemporaryFolder& folder) {
+  std::vector<std::string> states;
+  std::istringstream lines(read_text(folder / "e.jsonl"));
+  for (std::string line; std::getline(lines, line);) {
+    const json event = json::parse(line);
+    if (event["type"] == "tracking") states.push_back(event["state"]);
+  }
+  return states;
+}
+
+Trajectory read_poses(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  return *read_tum_trajectory(in, path);
+}
+
+struct Accuracy {
+  double ate = 0;  // m
+  double coverage = 0;
+};
+
+Accuracy accuracy(const TemporaryFolder& folder, const std::filesystem::path& truth) {
+  const ProgramResult evaluated =
+      run_armsreach({"evaluate", "trajectory", "--estimate", folder / "t.txt", "--truth", truth,
+                     "--json", folder / "a.json"});
+  EXPECT_EQ(evaluated.exit_code, 0) << evaluated.output;
+  const json errors = json::parse(read_text(folder / "a.json"));
+  return {errors["ate_rmse"], errors["coverage"]};
+}
+
+// Covered for a second and carried on meanwhile; what was mapped before is what it must find.
+TEST(EndToEndFoundAgain, ACameraThatWasCoveredAndMoved) {
+  ARMSREACH_RECORDING_OR_SKIP(path, "rgbd/redkitchen");
+  TemporaryFolder folder;
+  edit_recording(path, folder / "covered", [](int frame) {
+    if (frame >= 80 && frame < 110) return FrameEdit::cover;
+    return frame >= 110 && frame < 130 ? FrameEdit::leave_out : FrameEdit::keep;
+  });
+  const Trajectory truth = read_poses(path / "groundtruth.txt");
+  ASSERT_GT((truth[130].world_from_camera.translation() - truth[79].world_from_camera.translation())
+                .norm(),
+            0.3);
+  track(folder, "tum:" + (folder / "covered").string());
+  EXPECT_THAT(tracking_states(folder),
+              ElementsAre("initialising", "tracking", "lost", "relocalised", "tracking"));
+  const Accuracy found = accuracy(folder, path / "groundtruth.txt");
+  EXPECT_LT(found.ate, 0.02);
+  EXPECT_GT(found.coverage, 0.65);  // of 200 frames: 150 could be seen
+}
+
+TEST(EndToEndFoundAgain, ASessionIsEnteredFromAnotherPlaceWithItsObjects) {
+  ARMSREACH_RECORDING_OR_SKIP(path, "rgbd/redkitchen");
+  TemporaryFolder folder;
+  write_text(folder / "c.yaml", "actions: [{frame: 15, click: [420, 215], insert: teapot}]\n");
+  const std::string session = folder / "session";
+  track(folder, "tum:" + path.string(),
+        {"--frames", "130", "--session", session, "--config", folder / "c.yaml"});
+  const std::string objects = read_text(folder / "session" / "objects.json");
+  EXPECT_THAT(objects, ::testing::HasSubstr("teapot"));
+
+  edit_recording(path, folder / "later",
+                 [](int frame) { return frame < 100 ? FrameEdit::leave_out : FrameEdit::keep; });
+  track(folder, "tum:" + (folder / "later").string(), {"--session", session});
+  EXPECT_THAT(tracking_states(folder), ElementsAre("relocalised", "tracking"));
+  // In the first day's world, whose origin is its first camera, not in one of its own.
+  const Trajectory truth = read_poses(path / "groundtruth.txt");
+  const Trajectory found = read_poses(folder / "t.txt");
+  const Pose expected = truth[0].world_from_camera.inverse() * truth[100].world_from_camera;
+  const Pose moved = expected.inverse() * found.front().world_from_camera;
+  EXPECT_LT(moved.translation().norm(), 0.05);
+  EXPECT_EQ(read_text(folder / "session" / "objects.json"), objects);
+}
+
+// alpha = 0: intensity alone, against the map that a depth camera left.
+TEST(EndToEndFoundAgain, AColourCameraIsTrackedInASavedMap) {
+  ARMSREACH_RECORDING_OR_SKIP(path, "rgbd/livingroom");
+  TemporaryFolder folder;
+  track(folder, "tum:" + path.string(), {"--map", folder / "m.ot"});
+  const std::string map = read_text(folder / "m.ot");
+  write_text(folder / "c.yaml", "tracking: {alpha: 0}\n");
+  const std::vector<std::string> colour_only = {"--map", folder / "m.ot", "--config",
+                                                folder / "c.yaml"};
+  std::vector<std::string> with_camera = colour_only;
+  with_camera.insert(with_camera.end(), {"--camera", path / "camera.yaml"});
+  track(folder, "images:" + (path / "rgb").string(), with_camera);
+  const Accuracy pictures = accuracy(folder, path / "groundtruth.txt");
+  EXPECT_EQ(pictures.coverage, 1.0);
+  EXPECT_LT(pictures.ate, 0.02);
+  EXPECT_EQ(read_text(folder / "m.ot"), map) << "a camera without depth maps nothing";
+}
+
+TEST(EndToEndFoundAgain, AMapOfAnotherPlaceIsNotBelieved) {
+  ARMSREACH_RECORDING_OR_SKIP(livingroom, "rgbd/livingroom");
+  ARMSREACH_RECORDING_OR_SKIP(kitchen, "rgbd/redkitchen");
+  TemporaryFolder folder;
+  track(folder, "tum:" + livingroom.string(), {"--frames", "30", "--session", folder / "s"});
+  const std::string map = read_text(folder / "s" / "map.ot");
+  track(folder, "tum:" + kitchen.string(), {"--frames", "30", "--session", folder / "s"});
+  EXPECT_THAT(tracking_states(folder), ElementsAre("lost"));
+  EXPECT_EQ(read_text(folder / "s" / "map.ot"), map) << "nothing may be mapped while lost";
+}
+
+}  // namespace
+}  // namespace armsreach::test
