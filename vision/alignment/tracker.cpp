@@ -31,9 +31,10 @@ Tracker::Tracker(TrackerOptions options)
       verdict_(options_.aligner.alpha) {}
 
 TrackedFrame Tracker::reduced(const FramePtr& frame) {
-  if (!reducer_) {
-    reducer_.emplace(frame->sensor, options_.width);
-    motion_.start(options_.start.value_or(Pose()), frame->time);
+  if (!reducer_) motion_.start(options_.start.value_or(Pose()), frame->time);
+  if (sensor_ != frame->sensor) {
+    sensor_ = frame->sensor;
+    reducer_.emplace(sensor_, options_.width);
   }
   ReducedFrame images = reducer_->reduce(*frame);
   TrackedFrame tracked;

@@ -15,12 +15,15 @@ struct Scale {
 };
 constexpr Scale kCoarse{6, 1500};
 constexpr Scale kMiddle{3, 4000};
-constexpr Scale kFine[] = {{1.6, 8000}, {1, 8000}};
+constexpr Scale kFine{1.6, 8000};
+constexpr Scale kFinest{1, 8000};
 
 constexpr double kGridStep = 1.5;           // units of a hypothesis
 constexpr int kGridReach[] = {6, 3, 3, 4};  // steps to either side; no roll
 constexpr std::size_t kCandidates = 5;      // of the grid that are followed up
+constexpr std::size_t kFinalists = 3;       // of those, down to the finest scale
 constexpr double kElsewhere = 3;            // units of displacement between rivals
+constexpr double kSame = 0.5;               // units of displacement within one valley
 constexpr double kPrecision = 0.02;         // units
 constexpr double kPriorWeight = 1e-3;       // agreement given up for a standard deviation
 
@@ -28,6 +31,8 @@ struct Candidate {
   ColorHypothesis hypothesis;
   double value;  // agreement less improbability
 };
+
+bool better(const Candidate& a, const Candidate& b) { return a.value > b.value; }
 
 class Search {
  public:
@@ -51,6 +56,8 @@ class Search {
   std::vector<ColorHypothesis> candidates() const;
   Candidate refined(const Agreement& agreement, const ColorHypothesis& start, double size,
                     int left_out = -1) const;
+  std::vector<Candidate> followed_up(const Agreement& middle) const;
+  ColorHypothesis finest(const std::vector<Candidate>& found) const;
   double around(const Agreement& agreement, const ColorHypothesis& best) const;
   double uncertainty(const Agreement& agreement, const ColorHypothesis& best) const;
 
@@ -78,8 +85,7 @@ std::vector<Candidate> Search::grid() const {
 // Coinciding cameras, and the best of the grid that are not near each other.
 std::vector<ColorHypothesis> Search::candidates() const {
   std::vector<Candidate> all = grid();
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.value > b.value; });
+  std::stable_sort(all.begin(), all.end(), better);
   std::vector<ColorHypothesis> chosen = {ColorHypothesis::Zero()};
   for (const Candidate& candidate : all) {
     if (chosen.size() > kCandidates) break;
@@ -123,18 +129,40 @@ double Search::uncertainty(const Agreement& agreement, const ColorHypothesis& be
   return std::sqrt(sum * (kParts - 1) / kParts);
 }
 
-ColorSearchResult Search::run() const {
+// Followed from the coarse to the middle scale, best first.
+std::vector<Candidate> Search::followed_up(const Agreement& middle) const {
   const Agreement coarse = agreement(kCoarse);
-  const Agreement middle = agreement(kMiddle);
-  std::vector<Candidate> found;
+  std::vector<Candidate> found = {refined(middle, ColorHypothesis::Zero(), 0.5)};
   for (const ColorHypothesis& candidate : candidates()) {
     found.push_back(refined(middle, refined(coarse, candidate, 1).hypothesis, 0.5));
   }
-  found.push_back(refined(middle, ColorHypothesis::Zero(), 0.5));
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.value > b.value; });
+  std::stable_sort(found.begin(), found.end(), better);
+  return found;
+}
+
+// The middle scale knows which valley is the right one, but not always which end of it.
+ColorHypothesis Search::finest(const std::vector<Candidate>& found) const {
+  std::vector<ColorHypothesis> followed;
+  std::vector<Candidate> finalists;
+  const Agreement fine = agreement(kFine);
+  for (const Candidate& candidate : found) {
+    if (finalists.size() >= kFinalists) break;
+    const bool same = std::any_of(followed.begin(), followed.end(), [&](const ColorHypothesis& h) {
+      return apart(candidate.hypothesis, h) < kSame * hypothesis_unit(assumed_);
+    });
+    if (same) continue;
+    followed.push_back(candidate.hypothesis);
+    finalists.push_back(refined(fine, candidate.hypothesis, 0.5));
+  }
+  const auto best = std::min_element(finalists.begin(), finalists.end(), better);
+  return refined(agreement(kFinest), best->hypothesis, 0.5).hypothesis;
+}
+
+ColorSearchResult Search::run() const {
+  const Agreement middle = agreement(kMiddle);
+  const std::vector<Candidate> found = followed_up(middle);
   ColorSearchResult result;
-  result.best = found.front().hypothesis;
+  result.best = finest(found);
   const double chance = around(middle, result.best);
   result.contrast = middle(result.best) - chance;
   const auto share = [&](const ColorHypothesis& h) {
@@ -146,10 +174,7 @@ ColorSearchResult Search::run() const {
     result.rival_share = share(rival.hypothesis);
     break;
   }
-  for (const Scale& scale : kFine) {
-    result.best = refined(agreement(scale), result.best, 0.5).hypothesis;
-  }
-  result.uncertainty = uncertainty(agreement(kFine[1]), result.best);
+  result.uncertainty = uncertainty(agreement(kFinest), result.best);
   result.displacement = apart(result.best, ColorHypothesis::Zero());
   return result;
 }
