@@ -30,7 +30,7 @@ struct UserInput {
 struct ComposeInput {
   TrackedFramePtr tracked;
   MapStatePtr map;                    // null until something is mapped
-  RegistrationStatePtr registration;  // null until there is something to say of it
+  RegistrationStatePtr registration;  // null until something is known of it
   std::vector<UserInput> user;
 };
 

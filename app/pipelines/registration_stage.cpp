@@ -11,9 +11,9 @@
 namespace armsreach::app {
 namespace {
 
-FaultEvent estimated(const RegistrationVerdict& verdict) {
-  const Camera& camera = verdict.color.camera;
-  const Pose& pose = verdict.color.camera_from_depth;
+FaultEvent estimated(const RegistrationVerdict& verdict, const SensorInfo& sensor) {
+  const Pose& pose = sensor.color_from_depth;
+  const Camera& camera = *sensor.color_camera;
   char message[240];
   std::snprintf(message, sizeof message,
                 "colour is not registered with depth (%.0f px off); its camera as estimated from "
@@ -49,7 +49,7 @@ RegistrationStage::RegistrationStage(std::shared_ptr<const SensorInfo> sensor)
 
 RegistrationStatePtr RegistrationStage::process(const FramePtr& frame) {
   const auto verdict = estimator_.add(*frame);
-  if (!verdict) return nullptr;
+  if (!verdict) return state_;
   auto state = std::make_shared<RegistrationState>();
   state->registration = verdict->registration;
   if (verdict->registration == Registration::cannot_tell) state->fault = cannot_tell();
@@ -57,11 +57,13 @@ RegistrationStatePtr RegistrationStage::process(const FramePtr& frame) {
     auto sensor = std::make_shared<SensorInfo>(*sensor_);
     sensor->registered = false;
     sensor->color_camera = verdict->color.camera;
+    sensor->color_camera->name += "_color";
     sensor->color_from_depth = verdict->color.camera_from_depth;
+    state->fault = estimated(*verdict, *sensor);
     state->sensor = std::move(sensor);
-    state->fault = estimated(*verdict);
   }
-  return state;
+  state_ = std::move(state);
+  return state_;
 }
 
 }  // namespace armsreach::app

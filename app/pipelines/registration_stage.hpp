@@ -13,11 +13,11 @@
 
 namespace armsreach::app {
 
-// What has become known since the run began.
+// What has become known since the run began, to be told whenever it is another one.
 struct RegistrationState {
   Registration registration = Registration::cannot_tell;
   std::shared_ptr<const SensorInfo> sensor;  // with the colour camera; null unless estimated
-  std::optional<FaultEvent> fault;           // to be told once; none where all is as assumed
+  std::optional<FaultEvent> fault;           // none where all is as assumed
 };
 using RegistrationStatePtr = std::shared_ptr<const RegistrationState>;
 
@@ -29,12 +29,13 @@ class RegistrationStage final : public Stage<FramePtr, RegistrationStatePtr> {
   // `sensor` has a colour and a depth camera.
   explicit RegistrationStage(std::shared_ptr<const SensorInfo> sensor);
   std::string name() const override { return "registration"; }
-  // Null while there is nothing new.
+  // Always all that is known, so that a reader may skip any; null while that is nothing.
   RegistrationStatePtr process(const FramePtr& frame) override;
 
  private:
   std::shared_ptr<const SensorInfo> sensor_;
   ColorCameraEstimator estimator_;
+  RegistrationStatePtr state_;
 };
 
 }  // namespace armsreach::app

@@ -21,7 +21,7 @@ mapping::MapperOptions mapper_options(const MappingConfig& config);
 struct TrackInput {
   FramePtr frame;
   MapStatePtr map;                    // null until something is mapped
-  RegistrationStatePtr registration;  // null until something is known beyond the source's word
+  RegistrationStatePtr registration;  // null until something is known of it
 };
 
 class TrackingStage final : public Stage<TrackInput, TrackedFramePtr> {
