@@ -13,8 +13,8 @@ struct Scale {
   double sigma;
   std::size_t contours;
 };
-constexpr Scale kCoarse{6, 1500};
-constexpr Scale kMiddle{3, 4000};
+constexpr Scale kCoarse{6, 1000};
+constexpr Scale kMiddle{3, 3000};
 constexpr Scale kFine{1.6, 8000};
 constexpr Scale kFinest{1, 8000};
 
