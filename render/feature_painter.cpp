@@ -55,22 +55,11 @@ Result<FeaturePainter> FeaturePainter::make(const Gl& gl) {
                                       {"shaders/feature.frag.glsl"});
   if (!program) return program.error();
   FeaturePainter painter;
-  painter.gl_ = &gl;
   painter.program_ = *std::move(program);
-  painter.array_ = VertexArray(gl);
-  painter.instances_ = Buffer(gl);
-  painter.array_.bind();
-  painter.instances_.bind(GL_ARRAY_BUFFER);
-  const auto attribute = [&gl](GLuint index, GLint size, GLenum type, GLboolean normalised,
-                               std::size_t offset) {
-    gl.EnableVertexAttribArray(index);
-    gl.VertexAttribPointer(index, size, type, normalised, sizeof(Instance),
-                           reinterpret_cast<const void*>(offset));
-    gl.VertexAttribDivisor(index, 1);
-  };
-  attribute(0, 2, GL_FLOAT, GL_FALSE, offsetof(Instance, centre));
-  attribute(1, 4, GL_FLOAT, GL_FALSE, offsetof(Instance, a));
-  attribute(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(Instance, color));
+  painter.quads_ = InstancedQuads(gl, sizeof(Instance),
+                                  {{2, GL_FLOAT, false, offsetof(Instance, centre)},
+                                   {4, GL_FLOAT, false, offsetof(Instance, a)},
+                                   {4, GL_UNSIGNED_BYTE, true, offsetof(Instance, color)}});
   return painter;
 }
 
@@ -85,14 +74,7 @@ void FeaturePainter::draw(const View& view, const std::vector<Feature>& features
   program_.use();
   program_.set("target_size", Vector2f(static_cast<float>(view.target_width),
                                        static_cast<float>(view.target_height)));
-  array_.bind();
-  instances_.bind(GL_ARRAY_BUFFER);
-  gl_->BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(instances.size() * sizeof(Instance)),
-                  instances.data(), GL_STREAM_DRAW);
-  gl_->Enable(GL_BLEND);
-  gl_->BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(instances.size()));
-  gl_->Disable(GL_BLEND);
+  quads_.draw(instances.data(), instances.size());
 }
 
 }  // namespace armsreach::render

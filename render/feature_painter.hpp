@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/gl_objects.hpp"
+#include "render/instanced_quads.hpp"
 #include "render/scene.hpp"
 #include "render/view.hpp"
 
@@ -16,10 +17,8 @@ class FeaturePainter {
   void draw(const View& view, const std::vector<Feature>& features) const;
 
  private:
-  const Gl* gl_ = nullptr;
   Program program_;
-  VertexArray array_;
-  Buffer instances_;
+  InstancedQuads quads_;
 };
 
 }  // namespace armsreach::render

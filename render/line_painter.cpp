@@ -35,24 +35,13 @@ Result<LinePainter> LinePainter::make(const Gl& gl) {
       {"shaders/line.frag.glsl"});
   if (!program) return program.error();
   LinePainter painter;
-  painter.gl_ = &gl;
   painter.program_ = *std::move(program);
-  painter.array_ = VertexArray(gl);
-  painter.segments_ = Buffer(gl);
-  painter.array_.bind();
-  painter.segments_.bind(GL_ARRAY_BUFFER);
-  const auto attribute = [&gl](GLuint index, GLint size, GLenum type, GLboolean normalised,
-                               std::size_t offset) {
-    gl.EnableVertexAttribArray(index);
-    gl.VertexAttribPointer(index, size, type, normalised, 2 * sizeof(LineEnd),
-                           reinterpret_cast<const void*>(offset));
-    gl.VertexAttribDivisor(index, 1);
-  };
-  for (GLuint end = 0; end < 2; ++end) {
-    const std::size_t start = end * sizeof(LineEnd);
-    attribute(2 * end, 3, GL_FLOAT, GL_FALSE, start + offsetof(LineEnd, point_in_world));
-    attribute(2 * end + 1, 4, GL_UNSIGNED_BYTE, GL_TRUE, start + offsetof(LineEnd, color));
+  std::vector<InstanceAttribute> attributes;
+  for (const std::size_t start : {std::size_t{0}, sizeof(LineEnd)}) {
+    attributes.push_back({3, GL_FLOAT, false, start + offsetof(LineEnd, point_in_world)});
+    attributes.push_back({4, GL_UNSIGNED_BYTE, true, start + offsetof(LineEnd, color)});
   }
+  painter.segments_ = InstancedQuads(gl, 2 * sizeof(LineEnd), attributes);
   return painter;
 }
 
@@ -62,14 +51,7 @@ void LinePainter::draw(const View& view, const Lines& lines, float width) const 
   program_.use();
   set_view(program_, view);
   program_.set("width", width);
-  array_.bind();
-  segments_.bind(GL_ARRAY_BUFFER);
-  gl_->BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(ends.size() * sizeof(LineEnd)),
-                  ends.data(), GL_STREAM_DRAW);
-  gl_->Enable(GL_BLEND);
-  gl_->BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(ends.size() / 2));
-  gl_->Disable(GL_BLEND);
+  segments_.draw(ends.data(), ends.size() / 2);
 }
 
 }  // namespace armsreach::render

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "render/gl_objects.hpp"
+#include "render/instanced_quads.hpp"
 #include "render/theme.hpp"
 #include "render/view.hpp"
 
@@ -36,10 +37,8 @@ class LinePainter {
   void draw(const View& view, const Lines& lines, float width) const;
 
  private:
-  const Gl* gl_ = nullptr;
   Program program_;
-  VertexArray array_;
-  Buffer segments_;
+  InstancedQuads segments_;
 };
 
 }  // namespace armsreach::render

@@ -9,7 +9,7 @@ TrackerOptions tracker_options(const TrackingConfig& config, bool map_exists) {
   TrackerOptions options;
   options.aligner.alpha = config.alpha;
   if (config.iterations > 0) {
-    options.aligner.iterations.assign(options.aligner.iterations.size(), config.iterations);
+    options.aligner.iterations.assign(default_iterations(config.width).size(), config.iterations);
   }
   options.width = config.width;
   if (map_exists) options.start.reset();

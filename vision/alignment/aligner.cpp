@@ -8,10 +8,12 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
+#include "vision/alignment/kernel_arguments.hpp"
+
 namespace armsreach {
 namespace {
 
-constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kTukey = 4.685;  // cutoff in deviations; 95 % efficient on normal residuals
 // Quantisation alone leaves this much, so that exact images do not divide by zero.
 constexpr ResidualScales kLeastScales{3e-4, 2e-3};
@@ -25,36 +27,6 @@ constexpr double kConverged = 1e-3;  // pixels: a smaller step is the last
 
 using Matrix7d = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 using Vector7d = Eigen::Matrix<double, kUnknowns, 1>;
-
-Planes planes(const Level& level) {
-  const Camera& camera = level.camera();
-  return {level.width(),
-          level.height(),
-          level.stride(),
-          static_cast<float>(camera.fx),
-          static_cast<float>(camera.fy),
-          static_cast<float>(camera.cx),
-          static_cast<float>(camera.cy),
-          level.greatest_step(),
-          level.inverse_depth.data(),
-          level.inverse_depth_x.data(),
-          level.inverse_depth_y.data(),
-          level.intensity.data(),
-          level.intensity_x.data(),
-          level.intensity_y.data()};
-}
-
-Warp warp_from(const Pose& target_from_source, double intensity_offset) {
-  const Eigen::Matrix3f rotation = target_from_source.rotation_matrix().cast<float>();
-  const Eigen::Vector3f translation = target_from_source.translation().cast<float>();
-  Warp warp{};
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) warp.rotation[i][j] = rotation(i, j);
-    warp.translation[i] = translation(i);
-  }
-  warp.intensity_offset = static_cast<float>(intensity_offset);
-  return warp;
-}
 
 int size_of(const Level& level) { return level.stride() * level.height(); }
 
@@ -175,14 +147,14 @@ Matrix6d Aligner::feigned_information(const Residuals& residuals, const Level& r
   const double intensity_gain = gain(1 - options_.alpha, noise.intensity, scales.intensity);
   Matrix6d sum = Matrix6d::Zero();
   for (int at = 0; at < size; at += stride) {
-    const double depth = residuals.depth[at];
-    const double intensity = residuals.intensity[at];
+    const auto depth = static_cast<double>(residuals.depth[at]);
+    const auto intensity = static_cast<double>(residuals.intensity[at]);
     const double both = (std::abs(depth) < kTukey * scales.depth ? depth_gain : 0) +
                         (std::abs(intensity) < kTukey * scales.intensity ? intensity_gain : 0);
     if (!(both > 0)) continue;
-    const double x = residuals.X[at];
-    const double y = residuals.Y[at];
-    const double rho = residuals.inverse_z[at];
+    const auto x = static_cast<double>(residuals.X[at]);
+    const auto y = static_cast<double>(residuals.Y[at]);
+    const auto rho = static_cast<double>(residuals.inverse_z[at]);
     Eigen::Matrix<double, 6, 2> by_gradient;  // x and y
     by_gradient << rho, 0, 0, rho, -rho * x, -rho * y, -x * y, -1 - y * y, 1 + x * x, x * y, -y, x;
     sum += both * by_gradient * by_gradient.transpose();
@@ -235,7 +207,7 @@ void Aligner::weigh(const Level& camera, const Level& reference, AlignmentResult
     result.compared += weights[at] >= 0 ? 1 : 0;
     result.inliers += weights[at] > 0 ? 1 : 0;
   }
-  result.weights = cv::Mat(camera.height(), camera.width(), CV_32FC1, cv::Scalar(kUnknown));
+  result.weights = cv::Mat(camera.height(), camera.width(), CV_32FC1, cv::Scalar(kNaN));
   if (own_depth) {
     for (int row = 0; row < camera.height(); ++row) {
       std::copy_n(weights + row * camera.stride(), camera.width(), result.weights.ptr<float>(row));

@@ -8,7 +8,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "vision/alignment/registration_kernels.hpp"
-#include "vision/core/pyramid.hpp"
 
 namespace armsreach {
 namespace {
@@ -87,7 +86,8 @@ FrameReducer::Reduction FrameReducer::reduction(const Camera& camera, int width)
   out.camera = pinhole(distorted.width, distorted.height, distorted.fx, distorted.fy, distorted.cx,
                        distorted.cy);
   if (!distorted.has_distortion()) return out;
-  out.map_x = cv::Mat(distorted.height, distorted.width, CV_32FC1, cv::Scalar(kUnknown));
+  out.map_x = cv::Mat(distorted.height, distorted.width, CV_32FC1,
+                      cv::Scalar::all(std::numeric_limits<double>::quiet_NaN()));
   out.map_y = out.map_x.clone();
   for (int row = 0; row < distorted.height; ++row) {
     for (int col = 0; col < distorted.width; ++col) {
@@ -107,13 +107,13 @@ FrameReducer::FrameReducer(std::shared_ptr<const SensorInfo> sensor, int width)
   camera_ = sensor_->depth_camera ? depth_.camera : color_.camera;
 }
 
-ReducedFrame FrameReducer::reduce(const Frame& frame) const {
+ReducedFrame FrameReducer::reduce(const Frame& frame, double depth_noise) const {
   ReducedFrame reduced;
   const auto fits = [](const cv::Mat& image, const std::optional<Camera>& camera) {
     return camera && image.size() == cv::Size(camera->width, camera->height);
   };
   if (fits(frame.depth, sensor_->depth_camera)) {
-    reduced.depth = reduced_depth(frame.depth, depth_.factor);
+    reduced.depth = reduced_depth(frame.depth, depth_.factor, depth_noise);
     if (!depth_.map_x.empty()) {
       reduced.depth = remapped(reduced.depth, depth_.map_x, depth_.map_y, surface_value);
     }

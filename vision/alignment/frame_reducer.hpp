@@ -7,6 +7,7 @@
 
 #include "vision/core/camera.hpp"
 #include "vision/core/frame.hpp"
+#include "vision/core/pyramid.hpp"
 
 namespace armsreach {
 
@@ -25,7 +26,8 @@ class FrameReducer {
 
   // Lens distortion is taken out; colour that is not registered is looked up through its own camera
   // at the depth of each pixel. Images of another size than the sensor's cameras are ignored.
-  ReducedFrame reduce(const Frame& frame) const;
+  // `depth_noise` as in reduced_depth.
+  ReducedFrame reduce(const Frame& frame, double depth_noise = kKinectDepthNoise) const;
 
  private:
   // Pixel of a distorted reduced image for each pixel of the pinhole; empty without distortion.

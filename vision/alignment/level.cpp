@@ -70,9 +70,9 @@ void Level::assign_half(const Level& finer) {
 void Level::differentiate() {
   const LevelKernels kernels = level_kernels(best_isa());
   kernels.differentiate(inverse_depth.data(), width(), height(), stride(), greatest_step(),
-                        inverse_depth_x.data(), inverse_depth_y.data());
-  kernels.differentiate(intensity.data(), width(), height(), stride(), kAnyStep, intensity_x.data(),
-                        intensity_y.data());
+                        greatest_bend(), inverse_depth_x.data(), inverse_depth_y.data());
+  kernels.differentiate(intensity.data(), width(), height(), stride(), kAnyStep, kAnyStep,
+                        intensity_x.data(), intensity_y.data());
 }
 
 void Pyramid::assign(const Camera& camera, const cv::Mat& depth, const cv::Mat& intensity,

@@ -32,9 +32,11 @@ class Level {
   bool has_depth() const { return has_depth_; }
   // Relative change of depth from one pixel to the next beyond which it is no surface but an edge.
   float greatest_step() const { return static_cast<float>(kGreatestSlope / camera_.fx); }
+  // Relative change of depth from one step to the next beyond which there is an edge or a crease.
+  float greatest_bend() const { return static_cast<float>(kGreatestBend / camera_.fx); }
 
   // Planes of stride() x height(), NaN where unknown. Gradients are central differences per pixel;
-  // those of inverse depth are unknown across discontinuities.
+  // those of inverse depth are unknown beside discontinuities and bends.
   std::vector<float> inverse_depth;  // 1/m
   std::vector<float> inverse_depth_x;
   std::vector<float> inverse_depth_y;
@@ -46,6 +48,10 @@ class Level {
   // Tangent of the angle, about 65 deg, between a surface's normal and the ray: what is seen at a
   // more grazing angle has more noise than shape. 3 % of depth a pixel at 80x60.
   static constexpr double kGreatestSlope = 2.2;
+  // Change of that tangent from one pixel to the next: 1.3 % of depth at 80x60. A pixel beside an
+  // edge or a crease is flat itself and has half of the edge's slope: where two images agree there
+  // it would testify, wrongly and strongly, that nothing moved.
+  static constexpr double kGreatestBend = 0.88;
 
   void resize(const Camera& camera);
   void differentiate();

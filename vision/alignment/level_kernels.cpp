@@ -19,7 +19,7 @@ void invert(float* plane, int size) {
 }
 
 void differentiate(const float* plane, int width, int height, int stride, float greatest_step,
-                   float* along_x, float* along_y) {
+                   float greatest_bend, float* along_x, float* along_y) {
   const int last_row = (height - 1) * stride;
   for (int at = 0; at < stride; at += kWidth) {
     lanes::store(along_x + at, unknown());
@@ -29,12 +29,18 @@ void differentiate(const float* plane, int width, int height, int stride, float 
   }
   for (int start = stride; start < last_row; start += stride) {
     for (int at = start; at < start + stride; at += kWidth) {
-      const Float dx = 0.5F * (lanes::load(plane + at + 1) - lanes::load(plane + at - 1));
-      const Float dy = 0.5F * (lanes::load(plane + at + stride) - lanes::load(plane + at - stride));
-      const Float limit = greatest_step * lanes::load(plane + at);
+      const Float here = lanes::load(plane + at);
+      const Float right = lanes::load(plane + at + 1) - here;
+      const Float left = here - lanes::load(plane + at - 1);
+      const Float below = lanes::load(plane + at + stride) - here;
+      const Float above = here - lanes::load(plane + at - stride);
+      const Float dx = 0.5F * (left + right);
+      const Float dy = 0.5F * (above + below);
+      const Float bend = lanes::max(lanes::abs(right - left), lanes::abs(below - above));
       const Float steepest = lanes::max(lanes::abs(dx), lanes::abs(dy));
-      lanes::store(along_x + at, steepest <= limit ? dx + 0.0F * dy : unknown());
-      lanes::store(along_y + at, steepest <= limit ? dy + 0.0F * dx : unknown());
+      const Float excess = lanes::max(steepest - greatest_step * here, bend - greatest_bend * here);
+      lanes::store(along_x + at, excess <= 0.0F ? dx + 0.0F * dy : unknown());
+      lanes::store(along_y + at, excess <= 0.0F ? dy + 0.0F * dx : unknown());
     }
     // Here one neighbour was in another row.
     along_x[start] = along_y[start] = __builtin_nanf("");

@@ -34,6 +34,11 @@ Pose MotionModel::predicted(Timestamp time) const {
   return world_from_camera_ * Pose::exp(kept * seconds * velocity_);
 }
 
+bool MotionModel::recent(Timestamp time) const {
+  const bool at_the_last_frame = time_ == measured_time_;
+  return at_the_last_frame || seconds_since(measured_time_, time) <= options_.remembered;
+}
+
 bool MotionModel::plausible(const Pose& world_from_camera, Timestamp time) const {
   const double seconds = seconds_since(measured_time_, time);
   const Pose surprise = predicted(time).inverse() * world_from_camera;

@@ -12,6 +12,7 @@ struct MotionOptions {
   // What a head or a hand can do to a camera between two frames beyond what was predicted.
   double greatest_speed = 3;  // m/s
   double greatest_turn = 6;   // rad/s
+  double remembered = 0.3;    // s without a measurement after which a prediction says nothing
 };
 
 class MotionModel {
@@ -26,6 +27,8 @@ class MotionModel {
 
   Pose predicted(Timestamp time) const;
   const Pose& measured() const { return measured_; }  // the last pose that was
+  // Whether the last measurement still says something about where the camera is.
+  bool recent(Timestamp time) const;
   bool plausible(const Pose& world_from_camera, Timestamp time) const;
 
  private:

@@ -13,7 +13,8 @@ constexpr std::uint32_t kFirst = std::bit_cast<std::uint32_t>(0x1p-24F) >> kDrop
 constexpr std::uint32_t kNotANumber = 0x7f800000U;
 
 double bin_start(int bin) {
-  return std::bit_cast<float>((kFirst + static_cast<std::uint32_t>(bin)) << kDroppedBits);
+  return static_cast<double>(
+      std::bit_cast<float>((kFirst + static_cast<std::uint32_t>(bin)) << kDroppedBits));
 }
 
 }  // namespace

@@ -14,7 +14,13 @@ bool sees_anything(const cv::Mat& depth) {
   return 10 * known > depth.total();
 }
 
-// Coarser by one level, and with iterations enough to come from where the motion ends up.
+AlignerOptions usual(const TrackerOptions& options) {
+  AlignerOptions aligner = options.aligner;
+  if (aligner.iterations.empty()) aligner.iterations = default_iterations(options.width);
+  return aligner;
+}
+
+// Coarser by one level, and with iterations enough to come from farther away.
 AlignerOptions searching(AlignerOptions options) {
   for (int& iterations : options.iterations) iterations = std::max(iterations, 10);
   options.iterations.push_back(20);
@@ -23,10 +29,18 @@ AlignerOptions searching(AlignerOptions options) {
 
 }  // namespace
 
+std::vector<int> default_iterations(int width) {
+  if (width < 120) return {5, 3};
+  std::vector<int> iterations{3, 4};
+  for (; width >= 240; width /= 2) iterations.push_back(4);
+  iterations.push_back(3);
+  return iterations;
+}
+
 Tracker::Tracker(TrackerOptions options)
     : options_(std::move(options)),
-      aligner_(options_.aligner),
-      searching_aligner_(searching(options_.aligner)),
+      aligner_(usual(options_)),
+      searching_aligner_(searching(aligner_.options())),
       motion_(options_.motion),
       verdict_(options_.aligner.alpha) {}
 
@@ -36,7 +50,8 @@ TrackedFrame Tracker::reduced(const FramePtr& frame) {
     sensor_ = frame->sensor;
     reducer_.emplace(sensor_, options_.width);
   }
-  ReducedFrame images = reducer_->reduce(*frame);
+  sensor_noise_.learn(frame->depth);
+  ReducedFrame images = reducer_->reduce(*frame, sensor_noise_.k());
   TrackedFrame tracked;
   tracked.frame = frame;
   tracked.camera = reducer_->camera();
@@ -144,8 +159,10 @@ Tracker::Attempt Tracker::attempt(const Reference& reference, const Pose& start,
                                  reference.world_from_camera.inverse() * start, intensity_offset_);
   out.world_from_camera = reference.world_from_camera * out.alignment.reference_from_camera;
   out.reference = &reference;
-  out.trusted =
-      verdict_.trusts(out.alignment, pixels()) && motion_.plausible(out.world_from_camera, time);
+  // Who has not been seen for a while may be anywhere: then the fit alone must convince.
+  const bool fits = motion_.recent(time) ? verdict_.trusts(out.alignment, pixels())
+                                         : verdict_.confirms(out.alignment, pixels());
+  out.trusted = fits && motion_.plausible(out.world_from_camera, time);
   return out;
 }
 

@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "vision/alignment/aligner.hpp"
 #include "vision/alignment/frame_reducer.hpp"
 #include "vision/alignment/motion_model.hpp"
+#include "vision/alignment/sensor_noise.hpp"
 #include "vision/alignment/verdict.hpp"
 #include "vision/core/frame.hpp"
 #include "vision/core/reference_view.hpp"
@@ -21,9 +23,13 @@ enum class OwnReference {
   key_frame,       // a frame that is kept until too little of it is seen
 };
 
+// Iterations from the finest level, of this width [px], to one of about 40 pixels. The finest ones
+// cost most and, once the coarser have come near, need few.
+std::vector<int> default_iterations(int width);
+
 struct TrackerOptions {
-  AlignerOptions aligner;
-  int width = 80;  // of the finest level, pixels
+  AlignerOptions aligner{.iterations = {}};  // none: the default ones of the width
+  int width = 80;                            // of the finest level, pixels
   OwnReference own_reference = OwnReference::previous_frame;
   // A new key frame is taken when fewer inliers are left than this fraction of what the old one had
   // at first.
@@ -83,6 +89,7 @@ class Tracker {
   Aligner searching_aligner_;  // from farther away, at leisure
   MotionModel motion_;
   Verdict verdict_;
+  SensorNoise sensor_noise_;
   std::shared_ptr<const SensorInfo> sensor_;
   std::optional<FrameReducer> reducer_;
   Pyramid camera_;  // of the frame being tracked

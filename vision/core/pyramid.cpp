@@ -10,6 +10,7 @@ namespace armsreach {
 namespace {
 
 constexpr int kLeastWidth = 16;  // of the kernels
+constexpr double kScatter = 6;   // deviations between the nearest and the farthest of 64 samples
 
 }  // namespace
 
@@ -22,7 +23,7 @@ PyramidKernels pyramid_kernels(Isa isa) {
   return baseline::kPyramidKernels;
 }
 
-cv::Mat reduced_depth(const cv::Mat& depth, int factor) {
+cv::Mat reduced_depth(const cv::Mat& depth, int factor, double noise) {
   CV_Assert(depth.type() == CV_32FC1 && factor >= 1);
   const cv::Size size(depth.cols / factor, depth.rows / factor);
   cv::Mat image = depth;
@@ -33,11 +34,12 @@ cv::Mat reduced_depth(const cv::Mat& depth, int factor) {
   const int width = std::max(kLeastWidth, size.width * factor);
   const int step = static_cast<int>(image.step1());
   const PyramidKernels kernels = pyramid_kernels(best_isa());
+  const auto scatter = static_cast<float>(kScatter * noise);
   std::vector<float> scratch(3 * width);
   cv::Mat reduced(size, CV_32FC1);
   std::vector<float> line(width / factor);
   for (int row = 0; row < size.height; ++row) {
-    kernels.depth_row(image.ptr<float>(row * factor), step, width, factor, scratch.data(),
+    kernels.depth_row(image.ptr<float>(row * factor), step, width, factor, scatter, scratch.data(),
                       line.data());
     std::copy_n(line.data(), size.width, reduced.ptr<float>(row));
   }

@@ -8,7 +8,7 @@ namespace {
 using lanes::Float;
 using lanes::kWidth;
 
-constexpr float kSameSurface = 1.03F;  // samples up to 3 % behind the nearest are one surface
+constexpr float kSameSurface = 0.04F;  // how far a slanted surface reaches behind its nearest point
 constexpr float kFar = 1e30F;          // [m] stands for no sample
 
 // Calls body(column) for vectors that cover 0..width; the last one overlaps its predecessor.
@@ -54,7 +54,7 @@ ARMSREACH_INLINE int fold_blocks(float* samples, int width, int factor, Fold fol
   return blocks;
 }
 
-void depth_row(const float* depth, int step, int width, int factor, float* scratch,
+void depth_row(const float* depth, int step, int width, int factor, float scatter, float* scratch,
                float* reduced) {
   float* const limits = scratch;
   float* const sums = scratch + width;
@@ -74,8 +74,11 @@ void depth_row(const float* depth, int step, int width, int factor, float* scrat
   fold_blocks(counts, width, factor, Sum{});
   const float least_known = 0.25F * static_cast<float>(factor * factor);
   for (int block = 0; block < blocks; ++block) {
+    const float nearest = sums[block];
+    const float noise = scatter * nearest;
+    const float reach = kSameSurface + noise;
     const bool known = counts[block] > 0 && counts[block] >= least_known;
-    const float farthest = known ? kSameSurface * sums[block] : 0.0F;
+    const float farthest = known ? nearest + reach * nearest : 0.0F;
     for (int i = 0; i < factor; ++i) limits[block * factor + i] = farthest;
   }
   for_columns(width, [&](int col) {

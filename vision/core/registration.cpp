@@ -34,7 +34,7 @@ cv::Mat registered_depth(const cv::Mat& depth, const Camera& camera, const Camer
   CV_Assert(depth.type() == CV_32FC1);
   CV_Assert(depth.cols == camera.width && depth.rows == camera.height);
   cv::Mat registered(target.height, target.width, CV_32FC1,
-                     cv::Scalar(std::numeric_limits<float>::quiet_NaN()));
+                     cv::Scalar(std::numeric_limits<double>::quiet_NaN()));
   const Eigen::Matrix3d rotation = target_from_camera.rotation_matrix();
   const Eigen::Vector3d& translation = target_from_camera.translation();
   // A slightly larger footprint than a sample leaves no cracks where the view is stretched.

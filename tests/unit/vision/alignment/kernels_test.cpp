@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "vision/alignment/align_kernels.hpp"
+#include "vision/alignment/kernel_arguments.hpp"
 #include "vision/alignment/level.hpp"
 #include "vision/alignment/level_kernels.hpp"
 #include "vision/alignment/registration_kernels.hpp"
@@ -35,35 +36,6 @@ void expect_identical(const std::vector<float>& a, const std::vector<float>& b) 
   }
 }
 
-Planes planes(const Level& level) {
-  const Camera& c = level.camera();
-  return {level.width(),
-          level.height(),
-          level.stride(),
-          static_cast<float>(c.fx),
-          static_cast<float>(c.fy),
-          static_cast<float>(c.cx),
-          static_cast<float>(c.cy),
-          level.greatest_step(),
-          level.inverse_depth.data(),
-          level.inverse_depth_x.data(),
-          level.inverse_depth_y.data(),
-          level.intensity.data(),
-          level.intensity_x.data(),
-          level.intensity_y.data()};
-}
-
-Warp warp_from(const Pose& pose) {
-  Warp warp{};
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      warp.rotation[i][j] = static_cast<float>(pose.rotation_matrix()(i, j));
-    }
-    warp.translation[i] = static_cast<float>(pose.translation()(i));
-  }
-  return warp;
-}
-
 struct Warped {
   std::vector<float> data;
   Residuals residuals;
@@ -77,7 +49,7 @@ Warped warped(const AlignKernels& kernels, const Level& source, const Level& tar
   float* p = out.data.data();
   const auto next = [&] { return std::exchange(p, p + size); };
   out.residuals = {next(), next(), next(), next(), next(), next(), next(), next(), next()};
-  kernels.warp(planes(source), planes(target), warp_from(pose), out.residuals);
+  kernels.warp(planes(source), planes(target), warp_from(pose, 0), out.residuals);
   return out;
 }
 
@@ -234,7 +206,7 @@ TEST(LevelKernels, EveryLevelGivesTheSameBits) {
     std::array<std::vector<float>, 4> found{
         std::vector<float>(size), std::vector<float>(size), std::vector<float>(half),
         std::vector<float>(level.inverse_depth.begin(), level.inverse_depth.begin() + size)};
-    kernels.differentiate(level.inverse_depth.data(), 80, 60, level.stride(), 0.01F,
+    kernels.differentiate(level.inverse_depth.data(), 80, 60, level.stride(), 0.01F, 0.02F,
                           found[0].data(), found[1].data());
     kernels.halve(level.inverse_depth.data(), level.stride(), 0.99F, 2, found[2].data(), 40, 30,
                   Level::padded(40));
@@ -260,7 +232,7 @@ TEST(PyramidKernels, EveryLevelGivesTheSameBits) {
       std::array<std::vector<float>, 2> found{std::vector<float>(width / factor),
                                               std::vector<float>(width / factor)};
       std::vector<float> scratch(3 * 100);
-      kernels.depth_row(depth.data(), 100, width, factor, scratch.data(), found[0].data());
+      kernels.depth_row(depth.data(), 100, width, factor, 0.01F, scratch.data(), found[0].data());
       std::vector<std::uint16_t> sums(300);
       kernels.intensity_row(image.data(), 300, width, 3, factor, sums.data(), scratch.data(),
                             found[1].data());

@@ -65,7 +65,6 @@ Outcome tracked(const std::string& recording, const TrackerOptions& options, Map
 TrackerOptions to_160x120() {
   TrackerOptions options;
   options.width = 160;
-  options.aligner.iterations = {3, 4, 3};
   return options;
 }
 
