@@ -29,9 +29,9 @@ struct UserInput {
 
 struct ComposeInput {
   TrackedFramePtr tracked;
-  MapStatePtr map;                    // null until something is mapped
-  RegistrationStatePtr registration;  // null until something is known of it
+  MapStatePtr map;  // null until something is mapped
   std::vector<UserInput> user;
+  RegistrationStatePtr registration = nullptr;  // null until something is known of it
 };
 
 struct Composed {

@@ -20,8 +20,8 @@ mapping::MapperOptions mapper_options(const MappingConfig& config);
 
 struct TrackInput {
   FramePtr frame;
-  MapStatePtr map;                    // null until something is mapped
-  RegistrationStatePtr registration;  // null until something is known of it
+  MapStatePtr map;                              // null until something is mapped
+  RegistrationStatePtr registration = nullptr;  // null until something is known of it
 };
 
 class TrackingStage final : public Stage<TrackInput, TrackedFramePtr> {

@@ -214,9 +214,8 @@ void Workspace::join_composing(const std::vector<SavedObject>& objects) {
       [this]() -> std::optional<ComposeInput> {
         auto tracked = to_compose_->pop();
         if (!tracked) return std::nullopt;
-        return ComposeInput{*tracked, mapping_ ? map_for_composing_.take() : nullptr,
-                            registration_ ? registration_for_composing_.take() : nullptr,
-                            user_.take()};
+        return ComposeInput{*tracked, mapping_ ? map_for_composing_.take() : nullptr, user_.take(),
+                            registration_ ? registration_for_composing_.take() : nullptr};
       },
       fault_handler());
   composing_->outlet().connect(scenes_);
