@@ -130,8 +130,8 @@ TEST(RegistrationRecordings, CabinetIsRegistered) {
 
 TEST(RegistrationRecordings, TheSimulatedBenchIsRegistered) {
   for (const char* spec : {"sim:bench,noise=none", "sim:bench,noise=kinect"}) {
-    const auto verdict = verdict_on(
-        frames_of(open_source(*parse_source_spec(spec), {}, sim_source_kinds()), 60));
+    const auto verdict =
+        verdict_on(frames_of(open_source(*parse_source_spec(spec), {}, sim_source_kinds()), 60));
     ASSERT_TRUE(verdict);
     EXPECT_EQ(verdict->registration, Registration::registered) << spec;
   }
