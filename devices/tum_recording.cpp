@@ -218,6 +218,7 @@ SensorInfo sensor_of(const std::vector<ListedFrame>& frames, const Cameras& came
     sensor.color_from_depth = *cameras.color->camera_from_depth;
     sensor.registered = false;
   }
+  sensor.registration_stated = cameras.color || !sensor.color_camera || !sensor.depth_camera;
   return sensor;
 }
 

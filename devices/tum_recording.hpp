@@ -3,7 +3,9 @@
 //   rgb.txt, depth.txt    time file (either may be missing)
 //   associations.txt      time colour time depth; without it images are paired by nearest time
 //   camera.yaml           the depth camera's where there is depth, else the colour camera's
-//   camera_color.yaml     the colour camera's, with camera_from_depth, where the two differ
+//   camera_color.yaml     the colour camera's, with camera_from_depth, where the two differ;
+//   without
+//                         it they are taken to coincide (SensorInfo::registration_stated)
 //   groundtruth.txt       time tx ty tz qx qy qz qw, world from depth camera (may be missing)
 //
 // Lists and calibration are checked when opening, images when reading them.

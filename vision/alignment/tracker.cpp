@@ -52,9 +52,10 @@ Tracker::Tracker(TrackerOptions options)
       motion_(options_.motion) {}
 
 TrackedFrame Tracker::reduced(const FramePtr& frame) {
-  if (!reducer_) {
-    reducer_.emplace(frame->sensor, options_.width);
-    motion_.start(options_.start.value_or(Pose()), frame->time);
+  if (!reducer_) motion_.start(options_.start.value_or(Pose()), frame->time);
+  if (sensor_ != frame->sensor) {
+    sensor_ = frame->sensor;
+    reducer_.emplace(sensor_, options_.width);
   }
   sensor_noise_.learn(frame->depth);
   ReducedFrame images = reducer_->reduce(*frame, sensor_noise_.k());

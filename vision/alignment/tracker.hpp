@@ -45,7 +45,8 @@ class Tracker {
   explicit Tracker(TrackerOptions options = {});
 
   // `map_reference` may be null, may have been drawn some frames ago, and may be given again.
-  // Frames come in the order of their times, from one sensor.
+  // Frames come in the order of their times, from one sensor; its colour camera may become known
+  // on the way.
   //
   // `proposed` is a view of the map from where a relocaliser believes the camera to be, or to have
   // been some frames ago. A camera that is lost is aligned against it from its pose, wherever that
@@ -92,6 +93,7 @@ class Tracker {
   MotionModel motion_;
   Verdict verdict_;
   SensorNoise sensor_noise_;
+  std::shared_ptr<const SensorInfo> sensor_;
   std::optional<FrameReducer> reducer_;
   Pyramid camera_;  // of the frame being tracked
   Reference own_;

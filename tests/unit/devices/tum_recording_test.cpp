@@ -46,6 +46,7 @@ TEST_F(TumRecordingTest, DeliversColourDepthInMetresTimeAndTruth) {
   EXPECT_EQ(recording->size(), 3);
   const SensorInfo& sensor = *recording->sensor();
   EXPECT_TRUE(sensor.registered);
+  EXPECT_FALSE(sensor.registration_stated);  // there is no camera_color.yaml
   EXPECT_EQ(sensor.depth_camera->width, kWidth);
   EXPECT_EQ(sensor.color_camera->fx, 30);
   EXPECT_NEAR(sensor.rate, 10, 1e-9);
@@ -91,6 +92,7 @@ TEST_F(TumRecordingTest, TwoCamerasAreNotRegistered) {
   const auto recording = open();
   ASSERT_TRUE(recording);
   EXPECT_FALSE(recording->sensor()->registered);
+  EXPECT_TRUE(recording->sensor()->registration_stated);
   EXPECT_EQ(recording->sensor()->color_camera->width, 64);
   EXPECT_EQ(recording->sensor()->depth_camera->width, kWidth);
   EXPECT_NEAR(recording->sensor()->color_from_depth.translation().x(), -0.02, 1e-12);
