@@ -184,8 +184,8 @@ TEST(OpenRig, RefusesSensorsWithoutACommonClockAndOneCameraForMany) {
   kind.name = "made-up";
   kind.open = [](const SourceSpec& spec,
                  const OpenOptions& options) -> Result<std::unique_ptr<Source>> {
-    return std::unique_ptr<Source>(std::make_unique<MadeUpSource>(
-        options.sensor, std::vector<Timestamp>{0}, spec.place == "live"));
+    return std::make_unique<MadeUpSource>(options.sensor, std::vector<Timestamp>{0},
+                                          spec.place == "live");
   };
   const auto mixed = rig_from_specs({"a=made-up:live", "b=made-up:recorded"});
   const auto refused = open_rig(*mixed, std::nullopt, {kind});
