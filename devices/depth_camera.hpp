@@ -24,8 +24,8 @@ class DepthCameraListener {
   // Images are not shared with later ones. `time` is the device's: one clock for both, any zero.
   virtual void on_color(cv::Mat color, Timestamp time) = 0;  // CV_8UC3 BGR or CV_8UC1
   virtual void on_depth(cv::Mat depth, Timestamp time) = 0;  // CV_32F metres, NaN unknown
-  virtual void on_gone(const std::string& what) = 0;  // "was unplugged": no more images come
-  virtual void on_arrival() = 0;                      // a device was plugged in: try open()
+  virtual void on_gone(const std::string& what) = 0;         // "was unplugged": no more images come
+  virtual void on_arrival() = 0;                             // a device was plugged in: try open()
 };
 
 class DepthCameraDriver {

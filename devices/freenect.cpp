@@ -1,14 +1,13 @@
 #include "devices/freenect.hpp"
 
 #include <atomic>
+#include <libfreenect.h>
+#include <libfreenect_registration.h>
 #include <optional>
 #include <string>
 #include <sys/time.h>
 #include <thread>
 #include <utility>
-
-#include <libfreenect.h>
-#include <libfreenect_registration.h>
 
 #include <opencv2/imgproc.hpp>
 
@@ -67,9 +66,12 @@ enum class DepthKind { registered, unregistered, raw };
 
 freenect_depth_format format_of(DepthKind kind) {
   switch (kind) {
-    case DepthKind::registered: return FREENECT_DEPTH_REGISTERED;
-    case DepthKind::unregistered: return FREENECT_DEPTH_MM;
-    case DepthKind::raw: break;
+    case DepthKind::registered:
+      return FREENECT_DEPTH_REGISTERED;
+    case DepthKind::unregistered:
+      return FREENECT_DEPTH_MM;
+    case DepthKind::raw:
+      break;
   }
   return FREENECT_DEPTH_11BIT;
 }
@@ -130,8 +132,8 @@ Result<DepthCameraDriver::Opened> FreenectDriver::open(DepthCameraListener& list
   stopping_ = false;
   pump_ = std::thread([this] { pump(); });
   Opened opened;
-  opened.sensor = kind_ == DepthKind::registered ? registered_kinect()
-                                                 : unregistered_kinect(geometry_);
+  opened.sensor =
+      kind_ == DepthKind::registered ? registered_kinect() : unregistered_kinect(geometry_);
   opened.nominal = true;  // the colour camera always is
   return opened;
 }

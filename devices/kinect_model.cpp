@@ -33,15 +33,15 @@ cv::Mat mapped(const std::uint16_t* numbers, Meaning meaning) {
 
 Camera kinect_depth_camera(const KinectGeometry& geometry) {
   const double focal_length = 0.5 * geometry.reference_distance / geometry.reference_pixel;
-  Camera camera = pinhole(kWidth, kHeight, focal_length, focal_length, 0.5 * (kWidth - 1),
-                          0.5 * (kHeight - 1));
+  Camera camera =
+      pinhole(kWidth, kHeight, focal_length, focal_length, 0.5 * (kWidth - 1), 0.5 * (kHeight - 1));
   camera.name = "kinect-depth";
   return camera;
 }
 
 Camera kinect_color_camera() {
-  Camera camera = pinhole(kWidth, kHeight, kColorFocalLength, kColorFocalLength,
-                          0.5 * (kWidth - 1), 0.5 * (kHeight - 1));
+  Camera camera = pinhole(kWidth, kHeight, kColorFocalLength, kColorFocalLength, 0.5 * (kWidth - 1),
+                          0.5 * (kHeight - 1));
   camera.name = "kinect-color";
   return camera;
 }
@@ -79,9 +79,8 @@ cv::Mat depth_from_numbers(const std::uint16_t* numbers, const KinectGeometry& g
   for (int number = 0; number < kNumbers; ++number) {
     table[static_cast<std::size_t>(number)] = kinect_depth(number, geometry);
   }
-  return mapped(numbers, [&](std::uint16_t number) {
-    return number < kNumbers ? table[number] : kUnknown;
-  });
+  return mapped(numbers,
+                [&](std::uint16_t number) { return number < kNumbers ? table[number] : kUnknown; });
 }
 
 cv::Mat depth_from_millimetres(const std::uint16_t* millimetres) {

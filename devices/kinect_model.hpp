@@ -13,10 +13,10 @@ namespace armsreach {
 // The geometry that a Kinect stores at the factory: a reference image of its dot pattern was taken
 // on a plane, and depth is the dots' shift against it. The values here are the usual ones.
 struct KinectGeometry {
-  double emitter_distance = 0.075;      // m, from the infra-red camera to the projector
-  double color_distance = 0.024;        // m, from the infra-red camera to the colour camera
-  double reference_distance = 1.2;      // m, of the plane
-  double reference_pixel = 0.1042e-2;   // m on that plane, of a pixel 1280 to the image's width
+  double emitter_distance = 0.075;     // m, from the infra-red camera to the projector
+  double color_distance = 0.024;       // m, from the infra-red camera to the colour camera
+  double reference_distance = 1.2;     // m, of the plane
+  double reference_pixel = 0.1042e-2;  // m on that plane, of a pixel 1280 to the image's width
 };
 
 // 640x480. Neither camera's distortion is in the geometry; both are nearly free of it.

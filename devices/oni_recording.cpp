@@ -15,7 +15,7 @@
 namespace armsreach {
 namespace {
 
-constexpr float kWhenAsked = -1;  // the player's speed: an image at a time, when it is read
+constexpr float kWhenAsked = -1;    // the player's speed: an image at a time, when it is read
 constexpr int kLongestWait = 2000;  // ms; the player says nothing at a damaged place
 constexpr Timestamp kPairingTolerance = 20'000'000;  // ns, as of TUM recordings
 
@@ -62,7 +62,7 @@ class OniPlayer {
   // Asked for once: at its end the player locks its properties until it is asked for more images.
   const bool depth_mirrored_;
   const bool color_mirrored_;
-  std::int64_t next_ = 0;      // depth image to come
+  std::int64_t next_ = 0;  // depth image to come
   std::deque<ReadImage> depth_;
   std::deque<ReadImage> color_;
   std::optional<Timestamp> newest_color_;  // since the last seek
@@ -165,8 +165,7 @@ class OniRecording : public Recording {
     const auto known = static_cast<std::int64_t>(times_.size());
     if (index < known) return times_[static_cast<std::size_t>(index)];
     const Timestamp last = times_.empty() ? 0 : times_.back();
-    return last +
-           timestamp_from_seconds(static_cast<double>(index - known + 1) / sensor_->rate);
+    return last + timestamp_from_seconds(static_cast<double>(index - known + 1) / sensor_->rate);
   }
 
   Result<std::optional<Frame>> read(std::int64_t index) override {

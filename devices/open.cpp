@@ -121,8 +121,7 @@ Status check_option_keys(const SourceSpec& spec, const SourceKind& kind) {
 }  // namespace
 
 std::vector<SourceKind> real_source_kinds() {
-  return {tum_kind(),    images_kind(), video_kind(),
-          camera_kind(), openni_kind(), freenect_kind()};
+  return {tum_kind(), images_kind(), video_kind(), camera_kind(), openni_kind(), freenect_kind()};
 }
 
 Result<std::unique_ptr<Source>> open_source(const SourceSpec& spec, const OpenOptions& options,

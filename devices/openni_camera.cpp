@@ -37,7 +37,8 @@ std::optional<openni::VideoMode> mode_with(const openni::VideoStream& stream,
 // A driver's thread calls for each new image.
 class StreamListener : public openni::VideoStream::NewFrameListener {
  public:
-  using Handler = void (*)(DepthCameraListener&, openni::VideoStream&, const openni::VideoFrameRef&);
+  using Handler = void (*)(DepthCameraListener&, openni::VideoStream&,
+                           const openni::VideoFrameRef&);
   StreamListener(DepthCameraListener& listener, Handler handler)
       : listener_(listener), handler_(handler) {}
   void onNewFrame(openni::VideoStream& stream) override {
@@ -182,8 +183,8 @@ Status OpenNiDriver::create(openni::SensorType type, openni::PixelFormat format,
 // Asks for registration; what counts is what the driver then says.
 bool OpenNiDriver::registers() const {
   openni::Device& device = streams_->device;
-  const auto wanted = registration_ ? openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR
-                                    : openni::IMAGE_REGISTRATION_OFF;
+  const auto wanted =
+      registration_ ? openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR : openni::IMAGE_REGISTRATION_OFF;
   if (device.isImageRegistrationModeSupported(wanted)) device.setImageRegistrationMode(wanted);
   device.setDepthColorSyncEnabled(true);  // those that cannot are paired by time all the same
   return device.getImageRegistrationMode() == openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR;

@@ -1,5 +1,6 @@
 #include "devices/openni_streams.hpp"
 
+#include <PS1080.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,8 +8,6 @@
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
-
-#include <PS1080.h>
 
 #include "devices/calibration.hpp"
 
@@ -21,8 +20,7 @@ constexpr double kUsualBaseline = 2.5;  // cm, of colour and depth in PrimeSense
 // Seen from behind, the colour camera sits to the right of the infra-red one.
 Pose color_from_depth(const openni::VideoStream& depth) {
   double baseline = 0;  // cm
-  if (depth.getProperty(XN_STREAM_PROPERTY_DCMOS_RCMOS_DISTANCE, &baseline) !=
-          openni::STATUS_OK ||
+  if (depth.getProperty(XN_STREAM_PROPERTY_DCMOS_RCMOS_DISTANCE, &baseline) != openni::STATUS_OK ||
       !(baseline > 0 && baseline < 50)) {
     baseline = kUsualBaseline;
   }
@@ -112,8 +110,7 @@ StreamsSensor sensor_of_streams(const openni::VideoStream& depth, const openni::
   const int width = sensor.depth_camera->width;
   const int height = sensor.depth_camera->height;
   sensor.depth_camera = resized(*sensor.color_camera, width, height);
-  sensor.registered =
-      width == sensor.color_camera->width && height == sensor.color_camera->height;
+  sensor.registered = width == sensor.color_camera->width && height == sensor.color_camera->height;
   return result;
 }
 
@@ -135,8 +132,8 @@ Result<cv::Mat> color_image(const openni::VideoFrameRef& frame, bool mirrored) {
   int conversion = cv::COLOR_RGB2BGR;
   if (format == openni::PIXEL_FORMAT_YUV422 || format == openni::PIXEL_FORMAT_YUYV) {
     type = CV_8UC2;
-    conversion = format == openni::PIXEL_FORMAT_YUYV ? cv::COLOR_YUV2BGR_YUYV
-                                                     : cv::COLOR_YUV2BGR_UYVY;
+    conversion =
+        format == openni::PIXEL_FORMAT_YUYV ? cv::COLOR_YUV2BGR_YUYV : cv::COLOR_YUV2BGR_UYVY;
   } else if (format == openni::PIXEL_FORMAT_GRAY8) {
     type = CV_8U;
   } else if (format != openni::PIXEL_FORMAT_RGB888) {

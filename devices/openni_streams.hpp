@@ -2,11 +2,10 @@
 // camera is, and its images as ours.
 #pragma once
 
+#include <OpenNI.h>
 #include <memory>
 #include <optional>
 #include <string>
-
-#include <OpenNI.h>
 
 #include <opencv2/core/mat.hpp>
 

@@ -82,8 +82,7 @@ std::optional<UsbObstacle> usb_obstacle(const UsbDevice& device, const std::stri
                        "--device-cgroup-rule 'c 189:* rmw'"};
   }
   if (access(device.node.c_str(), R_OK | W_OK) != 0) {
-    return UsbObstacle{"no permission to use " + device.node.string(),
-                       udev_command(device, group)};
+    return UsbObstacle{"no permission to use " + device.node.string(), udev_command(device, group)};
   }
   if (device.kernel_driver == "gspca_kinect") {
     return UsbObstacle{"the kernel module gspca_kinect has taken it",
@@ -93,12 +92,12 @@ std::optional<UsbObstacle> usb_obstacle(const UsbDevice& device, const std::stri
   return std::nullopt;
 }
 
-UsbObstacle usb_absence(const std::string& what, const std::string& remedy,
-                        const fs::path& nodes) {
+UsbObstacle usb_absence(const std::string& what, const std::string& remedy, const fs::path& nodes) {
   if (folder_exists(nodes)) return {what, remedy};
   return {what + ", and no USB here: " + nodes.string() + " is absent",
-          remedy + "; a container needs it passed in: docker run -v /dev/bus/usb:/dev/bus/usb "
-                   "--device-cgroup-rule 'c 189:* rmw'"};
+          remedy +
+              "; a container needs it passed in: docker run -v /dev/bus/usb:/dev/bus/usb "
+              "--device-cgroup-rule 'c 189:* rmw'"};
 }
 
 }  // namespace armsreach
