@@ -10,7 +10,7 @@
 namespace armsreach {
 namespace {
 
-using test::TemporaryFolder;
+using test::RecordedFolder;
 
 constexpr const char* kRig =
     "sensors:\n"
@@ -86,7 +86,7 @@ TEST(RigFromSpecs, NamesSensors) {
 }
 
 TEST(OpenRig, FindsFilesBesideTheRigFile) {
-  const TemporaryFolder folder;
+  const RecordedFolder folder;
   test::write_small_recording(folder);
   folder.write("rig.yaml", "sensors: [{name: depth, source: 'tum:.', camera: other.yaml}]");
   folder.write("other.yaml",
