@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 SourceSpec resolved(SourceSpec spec, const fs::path& folder, const std::vector<SourceKind>& kinds) {
   const bool is_path = std::any_of(kinds.begin(), kinds.end(), [&](const SourceKind& kind) {
-    return kind.name == spec.kind && kind.place_is_path;
+    return kind.name == spec.kind && kind.place_is_path && kind.place_is_path(spec.place);
   });
   if (is_path) spec.place = (folder / spec.place).string();
   return spec;

@@ -22,7 +22,8 @@ class Source {
 
   virtual const std::shared_ptr<const SensorInfo>& sensor() const = 0;
   // The next frame; null at the end. A broken frame is an error that names it; the caller may ask
-  // for the one after it. Blocks at most as long as a device takes; `stop` ends that wait.
+  // for the one after it. Blocks at most as long as a device takes; `stop` ends that wait. A device
+  // that has gone is Error::Kind::away once; asking again waits until it is back.
   virtual Result<FramePtr> next() = 0;
   virtual void stop() {}  // from any thread: a blocked or later next() returns null soon
   // What was guessed or given up on while opening or reading, e.g. "no calibration: assuming 60

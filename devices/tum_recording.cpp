@@ -253,8 +253,8 @@ Result<std::unique_ptr<Recording>> open_tum_recording(const fs::path& folder,
   sensor.name = options.sensor;
   auto truth = read_truth(folder, sensor, *cameras);
   if (!truth) return std::move(truth).error();
-  return std::unique_ptr<Recording>(std::make_unique<TumRecording>(
-      folder, std::move(*lists), std::move(*truth), std::move(sensor)));
+  return std::make_unique<TumRecording>(folder, std::move(*lists), std::move(*truth),
+                                        std::move(sensor));
 }
 
 }  // namespace armsreach

@@ -13,7 +13,7 @@ constexpr int kWrongInput = 2;
 constexpr int kDeviceFailed = 3;
 
 int exit_code(const armsreach::Error& error) {
-  return error.kind == armsreach::Error::Kind::device ? kDeviceFailed : kWrongInput;
+  return error.kind == armsreach::Error::Kind::input ? kWrongInput : kDeviceFailed;
 }
 
 int run_task(const armsreach::app::Task& task) {
