@@ -40,6 +40,7 @@ int main(int argc, char** argv) {
   armsreach::app::add_run_command(app, &task);
   armsreach::app::add_demo_command(app, &task);
   armsreach::app::add_sources_command(app, &task);
+  armsreach::app::add_export_command(app, &task);
   armsreach::app::add_evaluate_command(app, &task);
   try {
     app.parse(argc, argv);

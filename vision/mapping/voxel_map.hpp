@@ -17,7 +17,6 @@
 
 namespace armsreach::mapping {
 
-class DepthBand;
 struct FrameEvidence;
 
 struct VoxelMapOptions {
@@ -61,7 +60,7 @@ class VoxelMap {
   void put(const BlockKey& key, const Block& block);
 
  private:
-  void update(const std::vector<BlockKey>& keys, const DepthBand& band, const FrameEvidence& frame,
+  void update(const std::vector<BlockKey>& keys, const FrameEvidence& frame,
               const Pose& camera_from_world);
 
   VoxelMapOptions options_;

@@ -9,7 +9,6 @@
 #include <octomap/ColorOcTree.h>
 
 #include "tests/unit/vision/mapping/shapes.hpp"
-#include "vision/mapping/ply.hpp"
 #include "vision/mapping/ray_cast.hpp"
 
 namespace armsreach::mapping {
@@ -185,23 +184,6 @@ TEST(Octree, AHugeLeafDoesNotFillTheMemory) {
   const auto result = loaded(bytes, options);
   ASSERT_FALSE(result);
   EXPECT_NE(result.error().what.find("max_blocks"), std::string::npos);
-}
-
-TEST(Ply, IsACloudOfTheSurface) {
-  const VoxelMap map = scene_map();
-  std::ostringstream out;
-  write_ply(out, map.grid());
-  const std::string bytes = out.str();
-  const std::size_t end = bytes.find("end_header\n");
-  ASSERT_NE(end, std::string::npos);
-  std::istringstream header(bytes.substr(bytes.find("element vertex ") + 15));
-  std::size_t points = 0;
-  header >> points;
-  EXPECT_GT(points, 10'000U);
-  EXPECT_EQ(bytes.size() - end - 11, points * (6 * sizeof(float) + 3));
-  float first[6];
-  std::memcpy(first, bytes.data() + end + 11, sizeof(first));
-  EXPECT_NEAR(std::hypot(first[3], first[4], first[5]), 1, 1e-4);
 }
 
 }  // namespace
