@@ -1,4 +1,5 @@
 // A map goes from a run to a mesh that any viewer of meshes opens.
+#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -59,6 +60,28 @@ TEST(EndToEndExport, MeshAndCloudOfASavedMap) {
   EXPECT_EQ(of_cloud.body, 27 * of_cloud.vertices);
   EXPECT_THAT(mesh.output, HasSubstr("triangles"));
   EXPECT_THAT(mesh.output, HasSubstr("m2"));
+}
+
+TEST(EndToEndExport, StockToolsReadASavedMapAndWhatTheyWriteIsExported) {
+  if (std::system("command -v convert_octree >/dev/null") != 0) {
+    GTEST_SKIP() << "install octomap-tools";
+  }
+  TemporaryFolder folder;
+  const std::string map = folder / "map.ot";
+  const std::string theirs = folder / "theirs.ot";
+  ASSERT_EQ(run_armsreach({"run", "--source", "sim:bench", "--frames", "6", "--pace", "every-frame",
+                           "--display", "none", "--map", map})
+                .exit_code,
+            0);
+  const std::string convert = "convert_octree " + map + " " + theirs + " >/dev/null 2>&1";
+  ASSERT_EQ(std::system(convert.c_str()), 0);
+  for (const std::string& tree : {map, theirs}) {
+    const ProgramResult result = run_armsreach({"export", tree, "--out", tree + ".ply"});
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+  }
+  // Theirs has occupancy alone: its surface is an estimate of the same surface.
+  const auto ours = static_cast<double>(read_header(map + ".ply").vertices);
+  EXPECT_NEAR(static_cast<double>(read_header(theirs + ".ply").vertices), ours, 0.3 * ours);
 }
 
 TEST(EndToEndExport, WhatCannotBeExportedIsSaidWithItsRemedy) {

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <iterator>
 #include <limits>
+#include <numeric>
+#include <vector>
 
 namespace armsreach::plot {
 namespace {
@@ -44,13 +46,16 @@ class LogAxis {
   double at(double value) const {
     return from_ + (to_ - from_) * (std::log10(value) - low_) / (high_ - low_);
   }
+  bool in_sight(double value) const {
+    return std::log10(value) >= low_ && std::log10(value) <= high_;
+  }
   // 1, 2 and 5 of each decade in sight.
   std::vector<double> ticks() const {
     std::vector<double> found;
     for (double decade = std::floor(low_); decade <= high_; ++decade) {
       for (const double step : {1.0, 2.0, 5.0}) {
         const double value = step * std::pow(10, decade);
-        if (std::log10(value) >= low_ && std::log10(value) <= high_) found.push_back(value);
+        if (in_sight(value)) found.push_back(value);
       }
     }
     return found;
@@ -76,6 +81,7 @@ class Drawing {
     grid();
     for (std::size_t i = 0; i < figure_.curves.size(); ++i) curve(i);
     for (std::size_t i = 1; i < figure_.curves.size(); ++i) ratios(i);
+    labels();
     text(kLeft, kHeight - 12, "start", "#999", footer, "font-size=\"10\"");
     out_ << "</svg>\n";
   }
@@ -106,8 +112,17 @@ class Drawing {
          << "\" stroke=\"#e4e4e4\"/>\n";
   }
 
+  // The sizes that were measured, where they are whole; else round numbers.
+  std::vector<double> x_ticks() const {
+    std::vector<double> found;
+    for (const Point& point : figure_.curves[0].points) found.push_back(point.x);
+    const bool round =
+        std::all_of(found.begin(), found.end(), [](double x) { return x == std::round(x); });
+    return round && found.size() <= 8 ? found : x_.ticks();
+  }
+
   void grid() {
-    for (const double value : x_.ticks()) {
+    for (const double value : x_ticks()) {
       line(x_.at(value), kTop, x_.at(value), kBottom);
       text(x_.at(value), kBottom + 18, "middle", "#555", number(value));
     }
@@ -129,7 +144,21 @@ class Drawing {
       out_ << "<circle r=\"3.5\" fill=\"" << colour(index) << "\" cx=\"" << x_.at(p.x) << "\" cy=\""
            << y_.at(p.y) << "\"/>\n";
     }
-    text(kRight + 10, y_.at(curve.points.back().y) + 4, "start", colour(index), curve.label);
+  }
+
+  // Beside the curves' last points, lowest first, each clear of the one below.
+  void labels() {
+    std::vector<std::size_t> order(figure_.curves.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto end = [this](std::size_t i) { return y_.at(figure_.curves[i].points.back().y); };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return end(a) > end(b); });
+    double free_above = kBottom;
+    for (const std::size_t i : order) {
+      const double y = std::min(end(i) + 4, free_above);
+      text(kRight + 10, y, "start", colour(i), figure_.curves[i].label);
+      free_above = y - 15;
+    }
   }
 
   // How many times ours a peer takes, at each x that both have.
