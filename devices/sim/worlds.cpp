@@ -9,7 +9,8 @@
 namespace armsreach::sim {
 
 const std::vector<std::string>& world_names() {
-  static const std::vector<std::string> names{"bench", "near", "assembly"};
+  static const std::vector<std::string> names{"bench",    "near",      "kitchen-table",
+                                              "assembly", "packaging", "haptic-table"};
   return names;
 }
 
