@@ -16,4 +16,10 @@ inline bool folder_exists(const std::filesystem::path& path) {
   return std::filesystem::is_directory(path, failure);
 }
 
+// Whether a path in a list stays below the folder that the list lies in.
+inline bool stays_inside(const std::filesystem::path& listed) {
+  const std::filesystem::path path = listed.lexically_normal();
+  return path.empty() || (path.is_relative() && *path.begin() != "..");
+}
+
 }  // namespace armsreach

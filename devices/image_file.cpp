@@ -89,6 +89,15 @@ Result<cv::Mat> decode(const std::filesystem::path& file, int flags) {
   return image;
 }
 
+Result<cv::Mat> decode_units(const std::filesystem::path& file, const std::string& kind) {
+  auto raw = decode(file, cv::IMREAD_UNCHANGED);
+  if (!raw || raw->type() == CV_16UC1) return raw;
+  const int bits = static_cast<int>(8 * raw->elemSize1());
+  return Error{"the " + kind + " image has " + std::to_string(raw->channels()) +
+                   " channel(s) of " + std::to_string(bits) + " bits",
+               file.string(), kind + " images are 16-bit PNG files with one channel"};
+}
+
 constexpr float kSaturated = std::numeric_limits<std::uint16_t>::max();
 
 std::string size_text(const cv::Size& size) {
@@ -101,16 +110,14 @@ Result<cv::Mat> read_color_image(const std::filesystem::path& file) {
   return decode(file, cv::IMREAD_ANYCOLOR);
 }
 
+Result<cv::Mat> read_mask_image(const std::filesystem::path& file) {
+  return decode_units(file, "mask");
+}
+
 Result<cv::Mat> read_depth_image(const std::filesystem::path& file, double units_per_metre) {
-  auto raw = decode(file, cv::IMREAD_UNCHANGED);
-  if (!raw) return raw;
-  if (raw->type() != CV_16UC1) {
-    const int bits = static_cast<int>(8 * raw->elemSize1());
-    return Error{"the depth image has " + std::to_string(raw->channels()) + " channel(s) of " +
-                     std::to_string(bits) + " bits",
-                 file.string(), "depth images are 16-bit PNG files with one channel"};
-  }
-  return depth_from_units(*raw, units_per_metre);
+  auto units = decode_units(file, "depth");
+  if (!units) return units;
+  return depth_from_units(*units, units_per_metre);
 }
 
 cv::Mat depth_from_units(const cv::Mat& units, double units_per_metre) {

@@ -17,6 +17,9 @@ Result<cv::Mat> read_color_image(const std::filesystem::path& file);
 // 16-bit single-channel file to CV_32F metres. 0 and the saturated 65535 are unknown: NaN.
 Result<cv::Mat> read_depth_image(const std::filesystem::path& file, double units_per_metre);
 
+// 16-bit single-channel file as it is.
+Result<cv::Mat> read_mask_image(const std::filesystem::path& file);
+
 // Depths as such a file holds them, CV_16UC1: rounded to whole units; 0 where they are unknown or
 // too far for the format.
 cv::Mat units_from_depth(const cv::Mat& depth, double units_per_metre);

@@ -107,8 +107,8 @@ Result<std::unique_ptr<Recording>> open_image_recording(const fs::path& folder, 
   sensor.name = options.sensor;
   sensor.rate = rate;
   sensor.color_camera = calibration->camera;
-  return std::unique_ptr<Recording>(std::make_unique<ImageRecording>(
-      std::move(*files), std::move(sensor), std::move(calibration->events)));
+  return std::make_unique<ImageRecording>(std::move(*files), std::move(sensor),
+                                          std::move(calibration->events));
 }
 
 }  // namespace armsreach

@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <utility>
 
+#include "devices/freenect.hpp"
 #include "devices/image_recording.hpp"
+#include "devices/openni.hpp"
 #include "devices/recording.hpp"
 #include "devices/tum_recording.hpp"
 #include "devices/v4l2.hpp"
@@ -27,12 +29,14 @@ Result<std::unique_ptr<Source>> played(Result<std::unique_ptr<Recording>> record
   return play(std::move(*recording), *loop);
 }
 
+bool always_a_path(const std::string&) { return true; }
+
 SourceKind tum_kind() {
   SourceKind kind;
   kind.name = "tum";
   kind.usage = "tum:DIR[,loop=pingpong]";
   kind.option_keys = {"loop"};
-  kind.place_is_path = true;
+  kind.place_is_path = always_a_path;
   kind.open = [](const SourceSpec& spec, const OpenOptions& options) {
     return played(open_tum_recording(spec.place, options), spec);
   };
@@ -47,7 +51,7 @@ SourceKind images_kind() {
   kind.name = "images";
   kind.usage = "images:DIR[,rate=30][,loop=pingpong]";
   kind.option_keys = {"rate", "loop"};
-  kind.place_is_path = true;
+  kind.place_is_path = always_a_path;
   kind.open = [](const SourceSpec& spec,
                  const OpenOptions& options) -> Result<std::unique_ptr<Source>> {
     const auto rate = number_option(spec, "rate", 30, 0.001, 1000);  // Hz
@@ -65,7 +69,7 @@ SourceKind video_kind() {
   kind.name = "video";
   kind.usage = "video:FILE[,loop=pingpong]";
   kind.option_keys = {"loop"};
-  kind.place_is_path = true;
+  kind.place_is_path = always_a_path;
   kind.open = [](const SourceSpec& spec, const OpenOptions& options) {
     return played(open_video_recording(spec.place, options), spec);
   };
@@ -79,6 +83,27 @@ SourceKind camera_kind() {
   kind.usage = "camera:N";
   kind.open = open_v4l2_camera;
   kind.probe = [] { return probe_v4l2(); };
+  return kind;
+}
+
+SourceKind openni_kind() {
+  SourceKind kind;
+  kind.name = "openni";
+  kind.usage = "openni:any|FILE.oni[,registration=off][,loop=pingpong]";
+  kind.option_keys = {"registration", "loop"};
+  kind.place_is_path = is_oni_file;
+  kind.open = open_openni;
+  kind.probe = [] { return probe_openni(); };
+  return kind;
+}
+
+SourceKind freenect_kind() {
+  SourceKind kind;
+  kind.name = "freenect";
+  kind.usage = "freenect:N[,depth=registered|unregistered|raw]";
+  kind.option_keys = {"depth"};
+  kind.open = open_freenect_camera;
+  kind.probe = [] { return probe_freenect(); };
   return kind;
 }
 
@@ -96,7 +121,7 @@ Status check_option_keys(const SourceSpec& spec, const SourceKind& kind) {
 }  // namespace
 
 std::vector<SourceKind> real_source_kinds() {
-  return {tum_kind(), images_kind(), video_kind(), camera_kind()};
+  return {tum_kind(), images_kind(), video_kind(), camera_kind(), openni_kind(), freenect_kind()};
 }
 
 Result<std::unique_ptr<Source>> open_source(const SourceSpec& spec, const OpenOptions& options,

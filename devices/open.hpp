@@ -33,12 +33,13 @@ struct SourceKind {
   std::string name;                      // "tum"
   std::string usage;                     // "tum:DIR[,loop=pingpong]"
   std::vector<std::string> option_keys;  // others are refused by name before `open` is called
-  bool place_is_path = false;            // of a file or folder, relative to a rig file's folder
+  // Whether a place is a file's or folder's, relative to a rig file's folder; unset: never.
+  std::function<bool(const std::string& place)> place_is_path;
   std::function<Result<std::unique_ptr<Source>>(const SourceSpec&, const OpenOptions&)> open;
   std::function<std::vector<Availability>()> probe;  // at least one line
 };
 
-// tum, images, video, camera.
+// tum, images, video, camera, openni, freenect.
 std::vector<SourceKind> real_source_kinds();
 
 Result<std::unique_ptr<Source>> open_source(

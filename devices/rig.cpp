@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "devices/calibration.hpp"
+#include "devices/recorded_gimbal.hpp"
 
 namespace armsreach {
 namespace {
@@ -13,7 +14,7 @@ namespace fs = std::filesystem;
 
 SourceSpec resolved(SourceSpec spec, const fs::path& folder, const std::vector<SourceKind>& kinds) {
   const bool is_path = std::any_of(kinds.begin(), kinds.end(), [&](const SourceKind& kind) {
-    return kind.name == spec.kind && kind.place_is_path;
+    return kind.name == spec.kind && kind.place_is_path && kind.place_is_path(spec.place);
   });
   if (is_path) spec.place = (folder / spec.place).string();
   return spec;
@@ -56,8 +57,21 @@ Result<RigSpec> rig_from_specs(const std::vector<std::string>& sources) {
   return rig;
 }
 
-Rig::Rig(std::vector<RigSensor> sensors, std::vector<std::unique_ptr<Actuator>> actuators)
-    : sensors_(std::move(sensors)), actuators_(std::move(actuators)), waiting_(sensors_.size()) {}
+Rig::Rig(std::vector<RigSensor> sensors, std::vector<std::shared_ptr<Actuator>> actuators)
+    : sensors_(std::move(sensors)), actuators_(std::move(actuators)), waiting_(sensors_.size()) {
+  for (const RigSensor& sensor : sensors_) {
+    for (std::shared_ptr<Actuator>& own : sensor.source->actuators())
+      actuators_.push_back(std::move(own));
+  }
+}
+
+std::shared_ptr<Gimbal> Rig::gimbal_of(const std::string& sensor) const {
+  for (const std::shared_ptr<Actuator>& actuator : actuators_) {
+    auto gimbal = std::dynamic_pointer_cast<Gimbal>(actuator);
+    if (gimbal && gimbal->name() == sensor) return gimbal;
+  }
+  return nullptr;
+}
 
 Result<FramePtr> Rig::next() {
   Waiting* earliest = nullptr;
@@ -105,6 +119,7 @@ Result<std::unique_ptr<Rig>> open_rig(const RigSpec& spec, const std::optional<C
                  "", "give each sensor its camera file in a rig file"};
   }
   std::vector<RigSensor> sensors;
+  std::vector<std::shared_ptr<Actuator>> actuators;
   for (const RigSensorSpec& sensor : spec.sensors) {
     auto opened = open_sensor(sensor, spec.folder, camera, kinds);
     if (!opened) return std::move(opened).error();
@@ -114,8 +129,13 @@ Result<std::unique_ptr<Rig>> open_rig(const RigSpec& spec, const std::optional<C
                    text_of(sensor.source), "use live sensors only, or recordings only"};
     }
     sensors.push_back(std::move(*opened));
+    if (!sensor.gimbal) continue;
+    auto gimbal =
+        open_recorded_gimbal(sensor.name, *sensor.gimbal, spec.folder / sensor.gimbal_states);
+    if (!gimbal) return std::move(gimbal).error();
+    actuators.push_back(std::move(*gimbal));
   }
-  return std::make_unique<Rig>(std::move(sensors), std::vector<std::unique_ptr<Actuator>>());
+  return std::make_unique<Rig>(std::move(sensors), std::move(actuators));
 }
 
 }  // namespace armsreach

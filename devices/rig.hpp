@@ -8,10 +8,12 @@
 #include <vector>
 
 #include "devices/actuator.hpp"
+#include "devices/gimbal.hpp"
 #include "devices/open.hpp"
 #include "devices/source.hpp"
 #include "vision/core/camera_yaml.hpp"
 #include "vision/core/frame.hpp"
+#include "vision/core/gimbal.hpp"
 #include "vision/core/pose.hpp"
 #include "vision/core/result.hpp"
 
@@ -21,7 +23,10 @@ struct RigSensorSpec {
   std::string name = "main";
   SourceSpec source;
   std::string camera;    // its camera file where it is not the source's own; else empty
-  Pose rig_from_sensor;  // of the sensor's camera (SensorInfo::camera)
+  Pose rig_from_sensor;  // of the sensor's camera (SensorInfo::camera), at rest on a gimbal
+  // In a recording, the gimbal that moved the camera, and its gimbal.txt.
+  std::optional<GimbalModel> gimbal;
+  std::string gimbal_states;
 };
 
 struct RigSpec {
@@ -41,10 +46,13 @@ struct RigSensor {
 
 class Rig {
  public:
-  Rig(std::vector<RigSensor> sensors, std::vector<std::unique_ptr<Actuator>> actuators);
+  // The sensors' own actuators join these.
+  Rig(std::vector<RigSensor> sensors, std::vector<std::shared_ptr<Actuator>> actuators);
 
   const std::vector<RigSensor>& sensors() const { return sensors_; }
-  const std::vector<std::unique_ptr<Actuator>>& actuators() const { return actuators_; }
+  const std::vector<std::shared_ptr<Actuator>>& actuators() const { return actuators_; }
+  // That carries a sensor, and has its name; null where none does.
+  std::shared_ptr<Gimbal> gimbal_of(const std::string& sensor) const;
 
   // The frames of all sensors in order of time (where equal, in order of sensors), each naming its
   // sensor; null when all have ended. For that order every sensor that has not ended is waited for.
@@ -60,7 +68,7 @@ class Rig {
     bool ended = false;
   };
   std::vector<RigSensor> sensors_;
-  std::vector<std::unique_ptr<Actuator>> actuators_;
+  std::vector<std::shared_ptr<Actuator>> actuators_;
   std::vector<Waiting> waiting_;  // of each sensor
 };
 

@@ -4,9 +4,12 @@
 #include <cmath>
 #include <fstream>
 #include <initializer_list>
+#include <limits>
 #include <utility>
 
 #include <yaml-cpp/yaml.h>
+
+#include "devices/gimbal_yaml.hpp"
 
 namespace armsreach {
 namespace {
@@ -65,9 +68,21 @@ Result<Pose> read_pose(const YAML::Node& node, const std::string& where) {
   return Pose(so3_exp(*rotation), *translation);
 }
 
+Status read_gimbal(const YAML::Node& node, const std::string& where, RigSensorSpec& sensor) {
+  if (!node["gimbal"]) return ok();
+  auto model = read_gimbal_model(node["gimbal"], where);
+  if (!model) return std::move(model).error();
+  auto states = read_text(node, where, "gimbal_states");
+  if (!states) return std::move(states).error();
+  sensor.gimbal = *model;
+  sensor.gimbal_states = *states;
+  return ok();
+}
+
 Result<RigSensorSpec> read_sensor(const YAML::Node& node, const std::string& where) {
   const auto keys =
-      check_keys(node, where, "a sensor", {"name", "source", "camera", "rig_from_sensor"});
+      check_keys(node, where, "a sensor",
+                 {"name", "source", "camera", "rig_from_sensor", "gimbal", "gimbal_states"});
   if (!keys) return keys.error();
   RigSensorSpec sensor;
   auto name = read_text(node, where, "name");
@@ -88,6 +103,7 @@ Result<RigSensorSpec> read_sensor(const YAML::Node& node, const std::string& whe
     if (!pose) return std::move(pose).error();
     sensor.rig_from_sensor = *pose;
   }
+  if (auto status = read_gimbal(node, where, sensor); !status) return status.error();
   return sensor;
 }
 
@@ -117,6 +133,27 @@ Result<RigSpec> read_rig_yaml(std::istream& in, const std::string& where) {
   } catch (const YAML::Exception& e) {
     return Error{"not readable as YAML: " + std::string(e.what()), where, kRemedy};
   }
+}
+
+void write_rig_yaml(std::ostream& out, const RigSpec& rig) {
+  const auto precision = out.precision(std::numeric_limits<double>::max_digits10);
+  out << "sensors:\n";
+  for (const RigSensorSpec& sensor : rig.sensors) {
+    YAML::Emitter name;
+    name << YAML::DoubleQuoted << sensor.name;
+    YAML::Emitter source;
+    source << YAML::DoubleQuoted << text_of(sensor.source);
+    const Eigen::Vector3d r = so3_log(sensor.rig_from_sensor.rotation());
+    const Eigen::Vector3d& t = sensor.rig_from_sensor.translation();
+    out << "  - name: " << name.c_str() << "\n    source: " << source.c_str()
+        << "\n    rig_from_sensor: {rotation_vector: [" << r.x() << ", " << r.y() << ", " << r.z()
+        << "], translation: [" << t.x() << ", " << t.y() << ", " << t.z() << "]}\n";
+    if (!sensor.gimbal) continue;
+    out << "    gimbal: ";
+    write_gimbal_model(out, *sensor.gimbal);
+    out << "\n    gimbal_states: " << sensor.gimbal_states << "\n";
+  }
+  out.precision(precision);
 }
 
 Result<RigSpec> read_rig_file(const std::filesystem::path& file) {

@@ -5,10 +5,13 @@
 //       source: tum:kitchen              # a path is relative to the rig file's folder
 //       camera: kinect.yaml              # only where it is not the source's own
 //       rig_from_sensor: {rotation_vector: [0, 0, 0], translation: [0.1, 0, 0]}  # rad, m
+//       gimbal: {order: [pan, tilt, roll], ...}   # gimbal_yaml.hpp; of a recording,
+//       gimbal_states: gimbal.txt                 # and how it moved then
 #pragma once
 
 #include <filesystem>
 #include <istream>
+#include <ostream>
 #include <string>
 
 #include "devices/rig.hpp"
@@ -18,6 +21,8 @@ namespace armsreach {
 
 // Unknown keys are refused by name; `where` names the stream in errors.
 Result<RigSpec> read_rig_yaml(std::istream& in, const std::string& where);
+
+void write_rig_yaml(std::ostream& out, const RigSpec& rig);
 
 Result<RigSpec> read_rig_file(const std::filesystem::path& file);
 

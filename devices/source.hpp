@@ -23,7 +23,8 @@ class Source {
 
   virtual const std::shared_ptr<const SensorInfo>& sensor() const = 0;
   // The next frame; null at the end. A broken frame is an error that names it; the caller may ask
-  // for the one after it. Blocks at most as long as a device takes; `stop` ends that wait.
+  // for the one after it. Blocks at most as long as a device takes; `stop` ends that wait. A device
+  // that has gone is Error::Kind::away once; asking again waits until it is back.
   virtual Result<FramePtr> next() = 0;
   virtual void stop() {}  // from any thread: a blocked or later next() returns null soon
   // What is built together with the sensor, such as the gimbal below a simulated camera.

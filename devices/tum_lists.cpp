@@ -12,7 +12,6 @@ namespace armsreach {
 namespace {
 
 constexpr Timestamp kPairingTolerance = 20'000'000;  // ns, that of the set's own tools
-constexpr double kLatestTime = 4e9;  // s: sums and differences stay within a Timestamp
 
 Result<Timestamp> parse_time(const std::string& text, const std::string& line) {
   double seconds = 0;

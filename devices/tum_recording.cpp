@@ -10,6 +10,7 @@
 #include "devices/calibration.hpp"
 #include "devices/files.hpp"
 #include "devices/image_file.hpp"
+#include "devices/recorded_truth.hpp"
 #include "devices/tum_lists.hpp"
 #include "vision/core/trajectory.hpp"
 
@@ -28,17 +29,19 @@ struct Lists {
   Events events;
 };
 
-struct Truth {
+struct TruePoses {
   Trajectory world_from_listed;
   Pose listed_from_camera;  // the listed poses are the depth camera's
 };
 
 class TumRecording : public Recording {
  public:
-  TumRecording(const fs::path& folder, Lists lists, Truth truth, SensorInfo sensor)
+  TumRecording(const fs::path& folder, Lists lists, TruePoses poses, RecordedTruth truth,
+               SensorInfo sensor)
       : folder_(folder),
         frames_(std::move(lists.frames)),
         events_(std::move(lists.events)),
+        poses_(std::move(poses)),
         truth_(std::move(truth)),
         sensor_(std::make_shared<const SensorInfo>(std::move(sensor))) {}
 
@@ -58,7 +61,11 @@ class TumRecording : public Recording {
     frame.index = index;
     frame.time = listed.time();
     frame.sensor = sensor_;
-    frame.world_from_camera = truth_at(frame.time);
+    frame.world_from_camera = pose_at(frame.time);
+    auto truth = truth_.at(frame.time, sensor_->camera().depth_units_per_metre);
+    if (!truth) return std::move(truth).error();
+    frame.truth = std::move(*truth);
+    if (frame.truth) frame.world_from_camera = frame.truth->world_from_camera;
     if (!listed.color.file.empty()) {
       const fs::path file = folder_ / listed.color.file;
       auto color = read_color_image(file);
@@ -79,8 +86,8 @@ class TumRecording : public Recording {
   }
 
  private:
-  std::optional<Pose> truth_at(Timestamp time) const {
-    const Trajectory& poses = truth_.world_from_listed;
+  std::optional<Pose> pose_at(Timestamp time) const {
+    const Trajectory& poses = poses_.world_from_listed;
     const auto after =
         std::lower_bound(poses.begin(), poses.end(), time,
                          [](const TimedPose& pose, Timestamp t) { return pose.time < t; });
@@ -89,12 +96,12 @@ class TumRecording : public Recording {
       const double fraction = static_cast<double>(time - before->time) /
                               static_cast<double>(after->time - before->time);
       return interpolate(before->world_from_camera, after->world_from_camera, fraction) *
-             truth_.listed_from_camera;
+             poses_.listed_from_camera;
     }
     for (const auto& candidate : {after, before}) {
       if (candidate == poses.end() || std::abs(candidate->time - time) > kNearestTolerance)
         continue;
-      return candidate->world_from_camera * truth_.listed_from_camera;
+      return candidate->world_from_camera * poses_.listed_from_camera;
     }
     return std::nullopt;
   }
@@ -102,7 +109,8 @@ class TumRecording : public Recording {
   fs::path folder_;
   std::vector<ListedFrame> frames_;
   Events events_;
-  Truth truth_;
+  TruePoses poses_;
+  RecordedTruth truth_;
   std::shared_ptr<const SensorInfo> sensor_;
 };
 
@@ -158,8 +166,7 @@ Result<Lists> read_lists(const fs::path& folder) {
 // A list is data from elsewhere: it may name files of its own recording and no others. Links in the
 // folder were made by whoever keeps it and are followed.
 Status check_inside(const ListedFile& listed) {
-  const fs::path path = fs::path(listed.file).lexically_normal();
-  if (path.empty() || (path.is_relative() && *path.begin() != "..")) return ok();
+  if (stays_inside(listed.file)) return ok();
   return Error{"'" + listed.file + "' leaves the recording's folder", listed.line,
                "list files below the folder, by relative paths"};
 }
@@ -207,6 +214,12 @@ double mean_rate(const std::vector<ListedFrame>& frames) {
   return static_cast<double>(frames.size() - 1) / seconds_from_timestamp(span);
 }
 
+bool same_lens(const Camera& a, const Camera& b) {
+  return a.width == b.width && a.height == b.height && a.fx == b.fx && a.fy == b.fy &&
+         a.cx == b.cx && a.cy == b.cy && a.distortion == b.distortion &&
+         a.coefficients == b.coefficients;
+}
+
 SensorInfo sensor_of(const std::vector<ListedFrame>& frames, const Cameras& cameras) {
   SensorInfo sensor;
   sensor.rate = mean_rate(frames);
@@ -216,24 +229,27 @@ SensorInfo sensor_of(const std::vector<ListedFrame>& frames, const Cameras& came
   }
   if (cameras.color && sensor.color_camera && sensor.depth_camera) {
     sensor.color_from_depth = *cameras.color->camera_from_depth;
-    sensor.registered = false;
+    // The driver's registration, written down: both pictures are one camera's.
+    sensor.registered = sensor.color_from_depth.log().norm() == 0 &&
+                        same_lens(*sensor.color_camera, *sensor.depth_camera);
   }
+  sensor.registration_stated = cameras.color || !sensor.color_camera || !sensor.depth_camera;
   return sensor;
 }
 
-Result<Truth> read_truth(const fs::path& folder, const SensorInfo& sensor, const Cameras& cameras) {
-  Truth truth;
+Result<TruePoses> read_poses(const fs::path& folder, const SensorInfo& sensor, const Cameras& cameras) {
+  TruePoses poses;
   // Without depth "camera" means the colour camera, while the file tells of the depth camera.
   if (!sensor.depth_camera && cameras.color) {
-    truth.listed_from_camera = cameras.color->camera_from_depth->inverse();
+    poses.listed_from_camera = cameras.color->camera_from_depth->inverse();
   }
   const fs::path file = folder / "groundtruth.txt";
-  if (!file_exists(file)) return truth;
+  if (!file_exists(file)) return poses;
   std::ifstream in(file);
   auto trajectory = read_tum_trajectory(in, file.string());
   if (!trajectory) return std::move(trajectory).error();
-  truth.world_from_listed = std::move(*trajectory);
-  return truth;
+  poses.world_from_listed = std::move(*trajectory);
+  return poses;
 }
 
 }  // namespace
@@ -250,10 +266,12 @@ Result<std::unique_ptr<Recording>> open_tum_recording(const fs::path& folder,
   if (!cameras) return std::move(cameras).error();
   SensorInfo sensor = sensor_of(lists->frames, *cameras);
   sensor.name = options.sensor;
-  auto truth = read_truth(folder, sensor, *cameras);
+  auto poses = read_poses(folder, sensor, *cameras);
+  if (!poses) return std::move(poses).error();
+  auto truth = RecordedTruth::open(folder);
   if (!truth) return std::move(truth).error();
-  return std::unique_ptr<Recording>(std::make_unique<TumRecording>(
-      folder, std::move(*lists), std::move(*truth), std::move(sensor)));
+  return std::make_unique<TumRecording>(folder, std::move(*lists), std::move(*poses),
+                                        std::move(*truth), std::move(sensor));
 }
 
 }  // namespace armsreach

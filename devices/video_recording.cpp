@@ -130,9 +130,9 @@ Result<std::unique_ptr<Recording>> open_video_recording(const fs::path& file,
   sensor.name = options.sensor;
   sensor.color_camera = calibration->camera;
   const double rate = capture.get(cv::CAP_PROP_FPS);
-  if (rate > 0 && rate < 1e4) sensor.rate = rate;
-  return std::unique_ptr<Recording>(std::make_unique<VideoRecording>(
-      file, std::move(capture), std::move(sensor), std::move(calibration->events)));
+  if (rate > 1e-3 && rate < 1e4) sensor.rate = rate;
+  return std::make_unique<VideoRecording>(file, std::move(capture), std::move(sensor),
+                                          std::move(calibration->events));
 }
 
 Availability probe_video() {

@@ -13,8 +13,10 @@ namespace armsreach::app {
 using Task = std::function<Status()>;
 
 void add_run_command(CLI::App& app, Task* task);
+void add_record_command(CLI::App& app, Task* task);
 void add_demo_command(CLI::App& app, Task* task);
 void add_sources_command(CLI::App& app, Task* task);
+void add_export_command(CLI::App& app, Task* task);
 void add_evaluate_command(CLI::App& app, Task* task);
 
 }  // namespace armsreach::app

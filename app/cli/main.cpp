@@ -13,7 +13,7 @@ constexpr int kWrongInput = 2;
 constexpr int kDeviceFailed = 3;
 
 int exit_code(const armsreach::Error& error) {
-  return error.kind == armsreach::Error::Kind::device ? kDeviceFailed : kWrongInput;
+  return error.kind == armsreach::Error::Kind::input ? kWrongInput : kDeviceFailed;
 }
 
 int run_task(const armsreach::app::Task& task) {
@@ -38,8 +38,10 @@ int main(int argc, char** argv) {
   app.set_help_all_flag("--help-all", "help of every verb");
   armsreach::app::Task task;
   armsreach::app::add_run_command(app, &task);
+  armsreach::app::add_record_command(app, &task);
   armsreach::app::add_demo_command(app, &task);
   armsreach::app::add_sources_command(app, &task);
+  armsreach::app::add_export_command(app, &task);
   armsreach::app::add_evaluate_command(app, &task);
   try {
     app.parse(argc, argv);

@@ -7,13 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "app/cli/rig_options.hpp"
 #include "app/cli/run_options.hpp"
-#include "app/cli/source_kinds.hpp"
 #include "app/pipelines/presenter.hpp"
 #include "app/pipelines/vision_stages.hpp"
 #include "app/pipelines/workspace.hpp"
 #include "app/runtime/event_log.hpp"
-#include "devices/rig_yaml.hpp"
 
 namespace armsreach::app {
 namespace {
@@ -28,34 +27,6 @@ Result<Config> read_config_file(const std::string& path) {
     return Error{"cannot be opened", path, "check the path given to --config"};
   }
   return read_config(in, path);
-}
-
-Result<std::optional<CameraFile>> read_camera_file(const std::string& path) {
-  if (path.empty()) return std::optional<CameraFile>();
-  std::ifstream in(path);
-  if (!in || std::filesystem::is_directory(path)) {
-    return Error{"cannot be opened", path, "check the path given to --camera"};
-  }
-  auto file = read_camera_yaml(in, path);
-  if (!file) return file.error();
-  return std::optional<CameraFile>(*file);
-}
-
-Result<std::unique_ptr<Rig>> open_rig(const RunOptions& options) {
-  if (options.sources.empty() && options.rig.empty()) {
-    return Error{"no source was given", "--source",
-                 "for example --source sim:bench; see `armsreach sources`"};
-  }
-  auto spec = options.rig.empty() ? rig_from_specs(options.sources) : read_rig_file(options.rig);
-  if (!spec) return spec.error();
-  for (RigSensorSpec& sensor : spec->sensors) {
-    if (sensor.source.kind == "sim" && !option(sensor.source, "seed")) {
-      sensor.source.options.emplace_back("seed", std::to_string(options.seed));
-    }
-  }
-  auto camera = read_camera_file(options.camera);
-  if (!camera) return camera.error();
-  return armsreach::open_rig(*spec, *camera, all_source_kinds());
 }
 
 // The sensor called main, or else the first one that measures depth, or else the first.
@@ -143,7 +114,7 @@ Status run(const RunOptions& options, const Config& config) {
   if (auto status = check_meshes(config, options.config); !status) return status;
   auto world = load_world(options, config);
   if (!world) return world.error();
-  auto rig = open_rig(options);
+  auto rig = open_rig({options.sources, options.rig, options.camera, options.seed});
   if (!rig) return rig.error();
   const SensorInfoPtr sensor = main_sensor(**rig);
 

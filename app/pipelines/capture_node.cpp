@@ -43,11 +43,13 @@ FramePtr CaptureNode::next_frame() {
       if (stopped_) return nullptr;
     }
     std::optional<Result<FramePtr>> result;
-    const bool good = guarded([&] { result = rig_.next(); });
+    const auto start = std::chrono::steady_clock::now();
+    const bool good = reported([&] { result = rig_.next(); });
     report_source_events();
     if (good && result->ok()) {
       broken_in_a_row_ = 0;
       const FramePtr& frame = **result;
+      if (frame) count_frame(start);
       if (frame && frame->sensor->name != options_.sensor) continue;
       return frame;
     }
@@ -55,6 +57,7 @@ FramePtr CaptureNode::next_frame() {
       const Error& error = result->error();
       log_.write(
           {log_.now(), FaultEvent{"capture", error.where + ": " + error.what, error.remedy}});
+      if (error.kind == Error::Kind::away) continue;
       if (error.kind == Error::Kind::device || ++broken_in_a_row_ >= kMostBrokenInARow) {
         failure_ = error;
         return nullptr;

@@ -61,6 +61,10 @@ ComposedPtr Composer::process(const ComposeInput& input) {
 
   auto composed = std::make_shared<Composed>();
   composed->arrival = tracked.frame->arrival;
+  if (input.registration != registration_) {
+    registration_ = input.registration;
+    if (registration_->fault) tell({tracked.frame->time, *registration_->fault});
+  }
   apply(std::exchange(pending_, {}), world, tracked);
   composed->events = events_;
   composed->events_before = events_told_ - static_cast<std::int64_t>(events_.size());

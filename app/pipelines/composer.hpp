@@ -10,6 +10,7 @@
 
 #include "app/interaction/placement.hpp"
 #include "app/pipelines/map_state.hpp"
+#include "app/pipelines/registration_stage.hpp"
 #include "app/runtime/event_log.hpp"
 #include "app/runtime/stage.hpp"
 #include "render/scene.hpp"
@@ -30,6 +31,7 @@ struct ComposeInput {
   TrackedFramePtr tracked;
   MapStatePtr map;  // null until something is mapped
   std::vector<UserInput> user;
+  RegistrationStatePtr registration = nullptr;  // null until something is known of it
 };
 
 struct Composed {
@@ -65,6 +67,7 @@ class Composer final : public Stage<ComposeInput, ComposedPtr> {
   const EventLog& log_;
   StageRows stage_rows_;
   Latency latency_;
+  RegistrationStatePtr registration_;  // the last one told
   Placement placement_;
   UserInput pending_;  // done on frames whose tracking failed
   Events events_;      // the newest

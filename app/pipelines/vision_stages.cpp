@@ -30,8 +30,8 @@ TrackingStage::TrackingStage(const TrackingConfig& config, bool map_exists)
 TrackedFramePtr TrackingStage::process(const TrackInput& input) {
   const MapState none;
   const MapState& map = input.map ? *input.map : none;
-  return std::make_shared<const TrackedFrame>(
-      tracker_.track(input.frame, map.reference, map.proposed));
+  return std::make_shared<const TrackedFrame>(tracker_.track(
+      with_known_color(input.frame, input.registration), map.reference, map.proposed));
 }
 
 RelocalisationStage::RelocalisationStage(const relocalisation::KeyFrames& known)

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/pipelines/map_state.hpp"
+#include "app/pipelines/registration_stage.hpp"
 #include "app/runtime/stage.hpp"
 #include "app/session/config.hpp"
 #include "app/session/saved_world.hpp"
@@ -19,7 +20,8 @@ mapping::MapperOptions mapper_options(const MappingConfig& config);
 
 struct TrackInput {
   FramePtr frame;
-  MapStatePtr map;  // null until something is mapped
+  MapStatePtr map;                              // null until something is mapped
+  RegistrationStatePtr registration = nullptr;  // null until something is known of it
 };
 
 class TrackingStage final : public Stage<TrackInput, TrackedFramePtr> {

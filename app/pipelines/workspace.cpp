@@ -19,6 +19,7 @@
 namespace armsreach::app {
 namespace {
 
+using RegistrationNode = StageNode<FramePtr, RegistrationStatePtr>;
 using TrackingNode = StageNode<TrackInput, TrackedFramePtr>;
 using RelocalisationNode = StageNode<TrackedFramePtr, ProposalPtr>;
 using MappingNode = StageNode<MapInput, MapStatePtr>;
@@ -29,6 +30,9 @@ constexpr int kUserLag = 2;              // frames from a picture to the click o
 
 // All stages of the experience and how they are joined:
 //
+//      registration
+//        ^      | colour camera, where the source does not state it
+//        |      v
 //   capture -> tracking -> composing -> drawing
 //                |  | ^        ^  ^        |
 //                |  | | map    |  |  user  |
@@ -44,6 +48,7 @@ class Workspace {
   Result<RunSummary> run();
 
  private:
+  void join_registration();
   void join_tracking(bool map_exists);
   void join_mapping(std::optional<mapping::VoxelMap> map);
   void join_relocalisation(const relocalisation::KeyFrames& known);
@@ -71,12 +76,16 @@ class Workspace {
   std::shared_ptr<Connection<TrackedFramePtr>> to_compose_ = wiring_.driving<TrackedFramePtr>();
   std::shared_ptr<Connection<std::optional<JournalEntry>>> to_journal_;
   std::shared_ptr<Connection<ComposedPtr>> scenes_ = wiring_.driving<ComposedPtr>();
+  std::shared_ptr<Connection<FramePtr>> to_register_ = wiring_.driving<FramePtr>();
+  Following<RegistrationStatePtr> registration_for_tracking_{wiring_, config_.lag};
+  Following<RegistrationStatePtr> registration_for_composing_{wiring_, config_.lag};
   Following<MapStatePtr> map_for_tracking_{wiring_, config_.lag};
   Following<MapStatePtr> map_for_composing_{wiring_, config_.lag};
   Following<ProposalPtr> proposal_{wiring_, config_.lag};
   FollowingEvents<UserInput> user_{wiring_, kUserLag};
 
   CaptureNode capture_;
+  std::unique_ptr<RegistrationNode> registration_;  // null where the source states it
   std::unique_ptr<TrackingNode> tracking_;
   std::unique_ptr<RelocalisationNode> relocalisation_;
   std::unique_ptr<MappingNode> mapping_;
@@ -99,7 +108,11 @@ Workspace::Workspace(Rig& rig, Presenter& presenter, EventLog& log, const Config
       to_journal_(wiring_.queue<std::optional<JournalEntry>>(kJournalLength)),
       capture_(rig, {options.sensor->name, options.pace, options.frames}, log) {
   capture_.outlet().connect(frames_);
-  capture_.at_end([this] { frames_->close(); });
+  capture_.at_end([this] {
+    frames_->close();
+    to_register_->close();
+  });
+  if (!options.sensor->registration_stated) join_registration();
   join_tracking(world.map.has_value());
   if (config_.mapping.enabled) {
     join_relocalisation(world.key_frames);
@@ -109,13 +122,28 @@ Workspace::Workspace(Rig& rig, Presenter& presenter, EventLog& log, const Config
   join_drawing();
 }
 
+void Workspace::join_registration() {
+  registration_ = std::make_unique<RegistrationNode>(
+      std::make_unique<RegistrationStage>(options_.sensor), [this] { return to_register_->pop(); },
+      fault_handler());
+  capture_.outlet().connect(to_register_);
+  registration_->outlet().connect(registration_for_tracking_.connection());
+  registration_->outlet().connect(registration_for_composing_.connection());
+  registration_->at_end([this] {
+    to_register_->close();
+    registration_for_tracking_.connection()->close();
+    registration_for_composing_.connection()->close();
+  });
+}
+
 void Workspace::join_tracking(bool map_exists) {
   tracking_ = std::make_unique<TrackingNode>(
       std::make_unique<TrackingStage>(config_.tracking, map_exists),
       [this]() -> std::optional<TrackInput> {
         auto frame = frames_->pop();
         if (!frame) return std::nullopt;
-        return TrackInput{*frame, mapping_ ? map_for_tracking_.take() : nullptr};
+        return TrackInput{*frame, mapping_ ? map_for_tracking_.take() : nullptr,
+                          registration_ ? registration_for_tracking_.take() : nullptr};
       },
       fault_handler());
   tracking_->outlet().connect(to_journal_, entry_from_tracked);
@@ -123,6 +151,7 @@ void Workspace::join_tracking(bool map_exists) {
   tracking_->at_end([this] {
     frames_->close();
     map_for_tracking_.connection()->close();
+    registration_for_tracking_.connection()->close();
     to_journal_->close();
     for (const auto& out : {to_relocalise_, to_map_, to_compose_}) out->close();
   });
@@ -185,13 +214,15 @@ void Workspace::join_composing(const std::vector<SavedObject>& objects) {
       [this]() -> std::optional<ComposeInput> {
         auto tracked = to_compose_->pop();
         if (!tracked) return std::nullopt;
-        return ComposeInput{*tracked, mapping_ ? map_for_composing_.take() : nullptr, user_.take()};
+        return ComposeInput{*tracked, mapping_ ? map_for_composing_.take() : nullptr, user_.take(),
+                            registration_ ? registration_for_composing_.take() : nullptr};
       },
       fault_handler());
   composing_->outlet().connect(scenes_);
   composing_->at_end([this] {
     to_compose_->close();
     map_for_composing_.connection()->close();
+    registration_for_composing_.connection()->close();
     user_.connection()->close();
     scenes_->close();
   });
@@ -216,7 +247,9 @@ FaultHandler Workspace::fault_handler() {
 }
 
 std::vector<Node*> Workspace::nodes() {
-  std::vector<Node*> all = {&capture_, tracking_.get()};
+  std::vector<Node*> all = {&capture_};
+  if (registration_) all.push_back(registration_.get());
+  all.push_back(tracking_.get());
   if (relocalisation_) all.push_back(relocalisation_.get());
   if (mapping_) all.push_back(mapping_.get());
   all.push_back(composing_.get());
@@ -226,6 +259,7 @@ std::vector<Node*> Workspace::nodes() {
 
 std::int64_t Workspace::drops(const Node& node) const {
   if (&node == tracking_.get()) return frames_->drops();
+  if (&node == registration_.get()) return to_register_->drops();
   if (&node == relocalisation_.get()) return to_relocalise_->drops();
   if (&node == mapping_.get()) return to_map_->drops();
   if (&node == composing_.get()) return to_compose_->drops();

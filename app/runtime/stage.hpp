@@ -54,21 +54,31 @@ class Node {
   StageStatistics& statistics() { return statistics_; }
 
  protected:
-  // Runs `step`, timed and guarded; false when it threw.
+  // Runs the step of one frame, timed and guarded; false when it threw.
   template <class Step>
   bool guarded(Step step) {
     const auto start = std::chrono::steady_clock::now();
-    bool good = true;
+    const bool good = reported(step);
+    count_frame(start);
+    return good;
+  }
+
+  // Runs `step`; false when it threw, which is reported.
+  template <class Step>
+  bool reported(Step step) {
     try {
       step();
+      return true;
     } catch (const std::exception& e) {
-      good = false;
       report(e.what());
+      return false;
     }
+  }
+
+  void count_frame(std::chrono::steady_clock::time_point start) {
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     statistics_.processing.record(spent.count());
     statistics_.frames.fetch_add(1);
-    return good;
   }
 
  private:

@@ -116,15 +116,25 @@ void read_mapping(Section section, MappingConfig* mapping) {
   section.refuse_unknown();
 }
 
-void read_root(Section root, Config* config) {
-  root.read<std::string>("layout", &config->layout, "wearer or operator", is_layout);
+void read_size(Section& root, Config* config) {
+  if (!root.child("size")) return;
   double width = 0;
   double height = 0;
   read_pair(root, "size", &width, &height);
-  const auto is_side = [](double side) { return side == 0 || (side >= 64 && side <= 7680); };
-  if (!is_side(width) || !is_side(height)) root.complain("'size' must be 64 to 7680 pixels a side");
+  const auto is_side = [](double side) {
+    return side >= 64 && side <= 7680 && side == std::floor(side);
+  };
+  if (!is_side(width) || !is_side(height)) {
+    root.complain("'size' must be two whole numbers of pixels from 64 to 7680");
+    return;
+  }
   config->width = static_cast<int>(width);
   config->height = static_cast<int>(height);
+}
+
+void read_root(Section root, Config* config) {
+  root.read<std::string>("layout", &config->layout, "wearer or operator", is_layout);
+  read_size(root, config);
   root.read<bool>("threads", &config->threads, "true or false");
   root.read<int>("lag", &config->lag, "between 1 and 30 frames",
                  [](const int& n) { return n >= 1 && n <= 30; });

@@ -1,7 +1,7 @@
 // Insertion and reference view beside stock OctoMap: on the same rays (insertPointCloud, castRay)
-// and on the same keys (updateNode). Each benchmark does one step of ours and one of the peer's in
-// turn and reports both in milliseconds and their ratio. The frames are a recording's, with true
-// poses, or without recordings a simulated room's.
+// and on the same keys (updateNode); over resolutions and over the size of the map. Each benchmark
+// does one step of ours and one of the peer's in turn and reports both in milliseconds and their
+// ratio. The frames are a recording's, with true poses, or without recordings a simulated room's.
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -20,6 +20,7 @@
 #include "vision/core/camera_yaml.hpp"
 #include "vision/core/pyramid.hpp"
 #include "vision/core/trajectory.hpp"
+#include "vision/mapping/mesh.hpp"
 #include "vision/mapping/ray_cast.hpp"
 #include "vision/mapping/voxel_map.hpp"
 
@@ -29,7 +30,10 @@ using armsreach::Camera;
 using armsreach::Pose;
 using namespace armsreach::mapping;
 
-constexpr int kFrames = 4;  // of the recording, ten apart
+// Frames of the recording, ten apart: fewer where the peer takes seconds for each.
+int frames_for(int millimetres, int width) {
+  return width > 160 ? 1 : width > 80 || millimetres < 10 ? 2 : 4;
+}
 
 struct Shot {
   cv::Mat depth;
@@ -42,7 +46,7 @@ struct Shots {
   std::vector<Shot> shots;
 };
 
-Shots read_recording(const std::filesystem::path& folder, int width) {
+Shots read_recording(const std::filesystem::path& folder, int width, int count) {
   std::ifstream camera_file(folder / "camera.yaml");
   const Camera camera = armsreach::read_camera_yaml(camera_file, "camera.yaml").value().camera;
   std::ifstream truth_file(folder / "groundtruth.txt");
@@ -50,7 +54,7 @@ Shots read_recording(const std::filesystem::path& folder, int width) {
   std::ifstream list(folder / "associations.txt");
   Shots out{armsreach::resized(camera, width, width * 3 / 4), {}};
   std::string line;
-  for (int i = 0; std::getline(list, line) && i < 10 * kFrames; ++i) {
+  for (int i = 0; std::getline(list, line) && i < 10 * count; ++i) {
     if (i % 10 != 0) continue;
     std::istringstream words(line);
     double time = 0;
@@ -70,12 +74,12 @@ Shots read_recording(const std::filesystem::path& folder, int width) {
 }
 
 // From the middle of a room of 4 x 3 x 4 m, turning.
-Shots simulate_room(int width) {
+Shots simulate_room(int width, int count) {
   Shots out{armsreach::resized(armsreach::pinhole(640, 480, 585, 585, 319.5, 239.5), width,
                                width * 3 / 4),
             {}};
   const Eigen::Array3d half(2, 1.5, 2);
-  for (int i = 0; i < kFrames; ++i) {
+  for (int i = 0; i < count; ++i) {
     const Pose pose(Eigen::Quaterniond(Eigen::AngleAxisd(0.1 * i, Eigen::Vector3d::UnitY())),
                     {0.05 * i, 0, 0});
     cv::Mat depth(out.camera.height, out.camera.width, CV_32FC1);
@@ -92,9 +96,10 @@ Shots simulate_room(int width) {
   return out;
 }
 
-Shots read_shots(int width) {
+Shots read_shots(int millimetres, int width) {
+  const int count = frames_for(millimetres, width);
   const auto folder = armsreach::test::recording("rgbd/redkitchen");
-  return folder ? read_recording(*folder, width) : simulate_room(width);
+  return folder ? read_recording(*folder, width, count) : simulate_room(width, count);
 }
 
 // Of this thread's processor time: what else runs on the machine does not count.
@@ -108,6 +113,16 @@ void report(benchmark::State& state, double ours, double peer, double steps) {
   state.counters["ours_ms"] = ours / steps;
   state.counters["peer_ms"] = peer / steps;
   state.counters["times_faster"] = peer / ours;
+}
+
+// Memory, and what it is a square metre of mapped surface.
+void report_size(benchmark::State& state, const VoxelMap& map) {
+  const double megabytes =
+      static_cast<double>(map.grid().blocks.block_count() * sizeof(Block)) / 1e6;
+  const double square_metres = area(surface_mesh(map.grid()));
+  state.counters["map_MB"] = megabytes;
+  state.counters["map_m2"] = square_metres;
+  state.counters["MB_per_m2"] = megabytes / square_metres;
 }
 
 VoxelMapOptions options_at(double resolution) {
@@ -137,7 +152,8 @@ octomap::Pointcloud cloud_of(const Shots& shots, const Shot& shot) {
 // Arguments: resolution in millimetres, image width.
 void insert_beside_insert_point_cloud(benchmark::State& state) {
   const double resolution = static_cast<double>(state.range(0)) / 1000;
-  const Shots shots = read_shots(static_cast<int>(state.range(1)));
+  const Shots shots =
+      read_shots(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
   VoxelMap map(options_at(resolution));
   octomap::OcTree tree(resolution);
   double ours = 0;
@@ -156,13 +172,26 @@ void insert_beside_insert_point_cloud(benchmark::State& state) {
     }
   }
   report(state, ours, peer, steps);
-  state.counters["map_MB"] =
-      static_cast<double>(map.grid().blocks.block_count() * sizeof(Block)) / 1e6;
+  report_size(state, map);
+}
+
+void cast_with_octomap(const octomap::OcTree& tree, const Camera& camera,
+                       const Pose& world_from_camera) {
+  const octomap::point3d origin = point(world_from_camera.translation());
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u) {
+      octomap::point3d end;
+      const Eigen::Vector3d ray =
+          world_from_camera.rotation() * armsreach::unproject(camera, {u, v});
+      benchmark::DoNotOptimize(tree.castRay(origin, point(ray), end, true, 8));
+    }
+  }
 }
 
 void cast_beside_cast_ray(benchmark::State& state) {
   const double resolution = static_cast<double>(state.range(0)) / 1000;
-  const Shots shots = read_shots(static_cast<int>(state.range(1)));
+  const Shots shots =
+      read_shots(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
   VoxelMap map(options_at(resolution));
   octomap::OcTree tree(resolution);
   for (const Shot& shot : shots.shots) {
@@ -178,16 +207,7 @@ void cast_beside_cast_ray(benchmark::State& state) {
       benchmark::DoNotOptimize(cast(map.grid(), shots.camera, shot.world_from_camera));
       ours += milliseconds() - start;
       start = milliseconds();
-      const octomap::point3d origin = point(shot.world_from_camera.translation());
-      for (int v = 0; v < shots.camera.height; ++v) {
-        for (int u = 0; u < shots.camera.width; ++u) {
-          octomap::point3d end;
-          benchmark::DoNotOptimize(tree.castRay(
-              origin,
-              point(shot.world_from_camera.rotation() * armsreach::unproject(shots.camera, {u, v})),
-              end, true, 8));
-        }
-      }
+      cast_with_octomap(tree, shots.camera, shot.world_from_camera);
       peer += milliseconds() - start;
       ++steps;
     }
@@ -243,7 +263,8 @@ double intersection_over_union(const VoxelMap& map, const octomap::OcTree& tree)
 void insert_beside_update_node(benchmark::State& state) {
   VoxelMapOptions options = options_at(static_cast<double>(state.range(0)) / 1000);
   options.carve_every = 0;
-  const Shots shots = read_shots(static_cast<int>(state.range(1)));
+  const Shots shots =
+      read_shots(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
   VoxelMap map(options);
   octomap::OcTree tree(options.resolution);
   tree.setClampingThresMin(options.least_certain);
@@ -271,6 +292,74 @@ void insert_beside_update_node(benchmark::State& state) {
   state.counters["IoU"] = intersection_over_union(map, tree);
 }
 
+// A mapped place and as many copies of it around, ten metres apart, as make a map of `places`; in
+// both forms. Steps are then made in the first place.
+struct LargeMap {
+  VoxelMap map;
+  octomap::OcTree tree;
+
+  LargeMap(const VoxelMap& place, int places)
+      : map(place.options()), tree(place.options().resolution) {
+    constexpr int kRow = 3;
+    const int apart = static_cast<int>(10 / (kBlockEdge * place.options().resolution));
+    for (int i = 0; i < places; ++i) {
+      for (const BlockKey& key : place.grid().blocks.keys()) {
+        map.put({key.x + apart * (i % kRow), key.y, key.z - apart * (i / kRow)},
+                *place.grid().blocks.find(key));
+      }
+    }
+    for_each_seen(map.grid(), [&](const Update& update) {
+      tree.setNodeValue(update.key, update.log_odds, true);
+    });
+    tree.updateInnerOccupancy();
+  }
+};
+
+// Argument: places.
+void step_in_a_large_map(benchmark::State& state) {
+  VoxelMapOptions options = options_at(0.01);
+  options.carve_every = 0;  // the peer's keys are the band's
+  const Shots shots = read_shots(10, 80);
+  VoxelMap place(options);
+  std::vector<std::vector<Update>> updates;
+  for (const Shot& shot : shots.shots) {
+    place.insert(shot.depth, shot.intensity, cv::Mat(), shots.camera, shot.world_from_camera);
+    updates.push_back(updates_of(shots, shot, options));
+  }
+  LargeMap large(place, static_cast<int>(state.range(0)));
+  double insertion = 0;
+  double update_node = 0;
+  double view = 0;
+  double cast_ray = 0;
+  double snapshot = 0;
+  double steps = 0;
+  const auto time = [](double& sum, auto&& step) {
+    const double start = milliseconds();
+    step();
+    sum += milliseconds() - start;
+  };
+  for (auto _ : state) {
+    for (std::size_t i = 0; i < updates.size(); ++i, ++steps) {
+      const Shot& shot = shots.shots[i];
+      const Pose& pose = shot.world_from_camera;
+      time(insertion,
+           [&] { large.map.insert(shot.depth, shot.intensity, cv::Mat(), shots.camera, pose); });
+      time(update_node, [&] {
+        for (const Update& u : updates[i]) large.tree.updateNode(u.key, u.log_odds, false);
+      });
+      time(view, [&] { benchmark::DoNotOptimize(cast(large.map.grid(), shots.camera, pose)); });
+      time(cast_ray, [&] { cast_with_octomap(large.tree, shots.camera, pose); });
+      time(snapshot, [&] { benchmark::DoNotOptimize(large.map.snapshot()); });
+    }
+  }
+  state.counters["insert_ms"] = insertion / steps;
+  state.counters["update_node_ms"] = update_node / steps;
+  state.counters["view_ms"] = view / steps;
+  state.counters["cast_ray_ms"] = cast_ray / steps;
+  state.counters["snapshot_ms"] = snapshot / steps;
+  report_size(state, large.map);
+}
+
 void resolutions_and_sizes(benchmark::internal::Benchmark* bench) {
   for (const int millimetres : {20, 10, 5}) bench->Args({millimetres, 80});
   for (const int width : {160, 320, 640}) bench->Args({10, width});
@@ -280,5 +369,11 @@ void resolutions_and_sizes(benchmark::internal::Benchmark* bench) {
 BENCHMARK(insert_beside_insert_point_cloud)->Apply(resolutions_and_sizes);
 BENCHMARK(insert_beside_update_node)->Apply(resolutions_and_sizes);
 BENCHMARK(cast_beside_cast_ray)->Apply(resolutions_and_sizes);
+BENCHMARK(step_in_a_large_map)
+    ->ArgName("places")
+    ->RangeMultiplier(2)
+    ->Range(1, 8)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(1);
 
 }  // namespace

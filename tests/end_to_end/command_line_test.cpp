@@ -10,8 +10,14 @@ namespace {
 using ::testing::HasSubstr;
 
 TEST(EndToEndCommandLine, HelpEverywhere) {
-  for (const std::vector<std::string>& verb : std::vector<std::vector<std::string>>{
-           {}, {"run"}, {"demo"}, {"sources"}, {"evaluate"}, {"evaluate", "trajectory"}}) {
+  for (const std::vector<std::string>& verb :
+       std::vector<std::vector<std::string>>{{},
+                                             {"run"},
+                                             {"demo"},
+                                             {"sources"},
+                                             {"evaluate"},
+                                             {"evaluate", "trajectory"},
+                                             {"export"}}) {
     std::vector<std::string> arguments = verb;
     arguments.push_back("--help");
     const ProgramResult result = run_armsreach(arguments);

@@ -74,6 +74,15 @@ TEST(EndToEndRun, ASimulatedRunWritesEverything) {
   EXPECT_TRUE(std::filesystem::exists(folder / "map.ot"));
 }
 
+TEST(EndToEndRun, TheEndOfASourceIsNotCountedAsAFrame) {
+  const TemporaryFolder folder;
+  const ProgramResult run =
+      run_armsreach({"run", "--source", "sim:bench,frames=6", "--pace", "every-frame", "--display",
+                     "none", "--stats", folder / "s.json"});
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_EQ(json_from_file(folder / "s.json")["stages"]["capture"]["frames"], 6);
+}
+
 TEST(EndToEndRun, ThreadedTurnsAndRepeatsAreBitIdentical) {
   std::vector<std::string> trajectories;
   std::vector<std::string> events;

@@ -45,7 +45,8 @@ class Tracker {
   explicit Tracker(TrackerOptions options = {});
 
   // `map_reference` may be null, may have been drawn some frames ago, and may be given again.
-  // Frames come in the order of their times, from one sensor.
+  // Frames come in the order of their times, from one sensor; its colour camera may become known
+  // on the way.
   //
   // `proposed` is a view of the map from where a relocaliser believes the camera to be, or to have
   // been some frames ago. A camera that is lost is aligned against it from its pose, wherever that
@@ -76,6 +77,8 @@ class Tracker {
   // Makes a reference of a view, unless it was made of `taken`, the one before.
   void take(const ReferenceViewPtr& view, ReferenceViewPtr& taken, Reference& reference) const;
   Attempt best_attempt(Timestamp time);
+  // Lost, or found again just now.
+  bool searching(Timestamp time) const { return !motion_.recent(time) || time < search_until_; }
   bool follows(const Attempt& tried, Timestamp time) const;
   Attempt attempt(Aligner& aligner, const Reference& reference, const Pose& start) const;
   // Tries the proposed view; when it fits, the world as it was known is given up for it.
@@ -90,6 +93,7 @@ class Tracker {
   MotionModel motion_;
   Verdict verdict_;
   SensorNoise sensor_noise_;
+  std::shared_ptr<const SensorInfo> sensor_;
   std::optional<FrameReducer> reducer_;
   Pyramid camera_;  // of the frame being tracked
   Reference own_;
@@ -97,6 +101,7 @@ class Tracker {
   Reference proposed_;
   ReferenceViewPtr map_view_;       // given last; map_ was made from it, or proposed since
   ReferenceViewPtr proposed_view_;  // that proposed_ was made from
+  Timestamp search_until_ = 0;
   double intensity_offset_ = 0;
 };
 

@@ -22,7 +22,9 @@ struct SensorInfo {
   std::optional<Camera> depth_camera;
   Pose color_from_depth;   // identity where the driver registers the two
   bool registered = true;  // false: colour and depth pixels do not coincide
-  double rate = 30;        // Hz, nominal
+  // False where nobody has said how the two relate and `registered` is taken for granted.
+  bool registration_stated = true;
+  double rate = 30;  // Hz, nominal
 
   const Camera& camera() const { return depth_camera ? *depth_camera : *color_camera; }
 };

@@ -2,6 +2,7 @@
 // what went wrong, where, and what to do next. Inside the house invariants are asserted instead.
 #pragma once
 
+#include <concepts>
 #include <string>
 #include <utility>
 #include <variant>
@@ -12,6 +13,7 @@ struct Error {
   enum class Kind {
     input,   // the command or a file is wrong: exit code 2
     device,  // a source, a device or the machine failed: exit code 3
+    away,    // a device has gone and is waited for: ask again; exit code 3 where nobody does
   };
   std::string what;    // "depth image is 320x240, the camera says 640x480"
   std::string where;   // "recording/depth/0.033333.png"
@@ -29,6 +31,10 @@ class [[nodiscard]] Result {
  public:
   Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}
   Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {}
+  // A pointer to a derived class for one to its base, and the like.
+  template <std::convertible_to<T> U>
+  requires(!std::convertible_to<U, Error>) Result(U&& value)
+      : state_(std::in_place_index<0>, std::forward<U>(value)) {}
 
   bool ok() const { return state_.index() == 0; }
   explicit operator bool() const { return ok(); }

@@ -8,6 +8,9 @@ namespace armsreach {
 
 using Timestamp = std::int64_t;  // ns
 
+// What is read from a file is refused beyond this: sums and differences stay within a Timestamp.
+constexpr double kLatestTime = 4e9;  // s, the year 2096 for those who count from 1970
+
 inline Timestamp timestamp_from_seconds(double seconds) {
   return static_cast<Timestamp>(std::llround(seconds * 1e9));
 }

@@ -102,6 +102,9 @@ Result<Trajectory> read_tum_trajectory(std::istream& in, const std::string& wher
     if (!fields || !std::isfinite(time) || !t.allFinite() || !q.allFinite()) {
       return Error{"not a pose", place, remedy};
     }
+    if (std::abs(time) >= kLatestTime) {
+      return Error{"the time is beyond 4e9 s", place, "times are numbers of seconds"};
+    }
     if (q.norm() < 1e-6) return Error{"the quaternion is zero", place, remedy};
     const TimedPose pose{timestamp_from_seconds(time),
                          Pose(Eigen::Quaterniond(q[3], q[0], q[1], q[2]), t)};

@@ -5,6 +5,7 @@
 // OctoMap; a block key is its voxel index / 8.
 #pragma once
 
+#include <algorithm>
 #include <compare>
 #include <cstdint>
 
@@ -62,6 +63,17 @@ struct VoxelInBlock {
 inline constexpr VoxelInBlock voxel_at(int place) {
   return {(place & 1) + (place >> 2 & 6), (place >> 1 & 1) + (place >> 4 & 6),
           (place >> 2 & 1) + (place >> 6 & 6)};
+}
+
+inline bool has_occupied(const Block& block, std::int16_t above) {
+  std::int16_t highest[8] = {INT16_MIN, INT16_MIN, INT16_MIN, INT16_MIN,
+                             INT16_MIN, INT16_MIN, INT16_MIN, INT16_MIN};
+  for (const VoxelCube& cube : block.cubes) {
+    for (int i = 0; i < 8; ++i) {
+      highest[i] = cube.log_odds[i] > highest[i] ? cube.log_odds[i] : highest[i];
+    }
+  }
+  return *std::max_element(highest, highest + 8) > above;
 }
 
 inline constexpr BlockKey block_of_voxel(int x, int y, int z) { return {x >> 3, y >> 3, z >> 3}; }

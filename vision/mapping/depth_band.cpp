@@ -8,7 +8,6 @@
 #include <Eigen/Core>
 
 #include "vision/mapping/block_table.hpp"
-#include "vision/mapping/tile_span.hpp"
 
 namespace armsreach::mapping {
 namespace {
@@ -80,14 +79,14 @@ DepthBand::DepthBand(const DepthPlanes& planes, const Camera& camera, const Sens
       tile_(std::max(1, planes.width / 80)),
       columns_((planes.width + tile_ - 1) / tile_),
       rows_((planes.height + tile_ - 1) / tile_),
-      tiles_(static_cast<std::size_t>(columns_) * rows_, kNothing) {
+      tiles_(static_cast<std::size_t>(columns_) * rows_, Depths{kNothing, 0}) {
   sensor_.noise *= voxel;  // sigma in voxel edges for depths in voxel edges
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) add_tile(column, row);
   }
 }
 
-DepthInterval DepthBand::pixel_interval(int u, int v) const {
+DepthBand::Depths DepthBand::pixel_depths(int u, int v) const {
   const PixelPlane& plane = planes_.at(u, v);
   const auto fx = static_cast<float>(camera_.fx);
   const auto fy = static_cast<float>(camera_.fy);
@@ -103,8 +102,9 @@ DepthInterval DepthBand::pixel_interval(int u, int v) const {
   const float sigma = static_cast<float>(sensor_.sigma(static_cast<double>(depth)));
   const float per_distance = std::sqrt(1 + x * x + y * y) / along;
   const float behind = std::max(3 * sigma, 2 * std::max(sigma, 1.0F) * per_distance);
-  const float front = std::max(3 * sigma + 3, 2 * per_distance);
-  return {std::max(depth - front - slack, 0.0F), depth + behind + slack};
+  const float band = 3 * sigma + 3;
+  const float front = std::max(band, 2 * per_distance);
+  return {{std::max(depth - front - slack, 0.0F), depth + behind + slack}, depth + slack - band};
 }
 
 void DepthBand::add_tile(int column, int row) {
@@ -112,14 +112,16 @@ void DepthBand::add_tile(int column, int row) {
   const int v0 = row * tile_;
   const int u1 = std::min(u0 + tile_, planes_.width);
   const int v1 = std::min(v0 + tile_, planes_.height);
-  DepthInterval& whole = tiles_[static_cast<std::size_t>(row) * columns_ + column];
+  Depths& tile = tiles_[static_cast<std::size_t>(row) * columns_ + column];
+  DepthInterval& whole = tile.band;
   const std::size_t first = cones_.size();
   for (int v = v0; v < v1; ++v) {
     for (int u = u0; u < u1; ++u) {
       if (planes_.at(u, v).distance == 0) continue;
-      const DepthInterval depths = pixel_interval(u, v);
-      cones_.push_back({static_cast<float>(u), static_cast<float>(v), 1, depths});
-      widen(whole, depths);
+      const Depths depths = pixel_depths(u, v);
+      cones_.push_back({static_cast<float>(u), static_cast<float>(v), 1, depths.band});
+      widen(whole, depths.band);
+      tile.free_to = std::max(tile.free_to, depths.free_to);
     }
   }
   if (cones_.size() < first + 2) return;
@@ -169,29 +171,43 @@ std::vector<BlockKey> DepthBand::blocks(const Pose& world_from_camera) const {
   return found.sorted();
 }
 
-template <class F>
-void DepthBand::for_tiles(const Vector3f& centre, float radius, F&& f) const {
-  const TileSpan span = tiles_of_sphere(camera_, tile_, columns_, rows_, centre, radius);
-  for (int row = span.top; row <= span.bottom; ++row) {
-    const DepthInterval* line = &tiles_[static_cast<std::size_t>(row) * columns_];
-    for (int column = span.left; column <= span.right; ++column) f(line[column]);
+DepthBand::Reach DepthBand::reach(bool carve) const {
+  Reach out{{}, columns_ + 2, rows_ + 2, kNothing};
+  out.tiles.resize(static_cast<std::size_t>(out.columns) * out.rows, kNothing);
+  for (int row = 0; row < rows_; ++row) {
+    for (int column = 0; column < columns_; ++column) {
+      const Depths& tile = tiles_[static_cast<std::size_t>(row) * columns_ + column];
+      if (tile.band.near > tile.band.far) continue;
+      const DepthInterval depths = carve ? DepthInterval{0, tile.free_to} : tile.band;
+      widen(out.anywhere, depths);
+      for (int i = 0; i < 9; ++i) {
+        widen(out.tiles[static_cast<std::size_t>(row + i / 3) * out.columns + column + i % 3],
+              depths);
+      }
+    }
   }
+  return out;
 }
 
-DepthInterval DepthBand::around(const Vector3f& centre, float radius) const {
-  if (centre.z() < radius + 1) return {0, kNothing.near};
-  DepthInterval interval = kNothing;
-  for_tiles(centre, radius, [&](const DepthInterval& tile) { widen(interval, tile); });
-  return interval;
-}
-
-DepthInterval DepthBand::in_front(const Vector3f& centre, float radius) const {
-  if (centre.z() < radius + 1) return kNothing;
-  DepthInterval interval{0, kNothing.far};
-  for_tiles(centre, radius, [&](const DepthInterval& tile) {
-    if (tile.near <= tile.far) interval.far = std::max(interval.far, tile.near);
-  });
-  return interval;
+void DepthBand::aim(FrameEvidence& frame, const Reach& reach, bool carve) const {
+  const double tile = tile_;
+  frame.carve = carve;
+  frame.tiles = reach.tiles.data();
+  frame.tile_columns = reach.columns;
+  frame.tile_rows = reach.rows;
+  frame.anywhere = reach.anywhere;
+  frame.tile_fx = static_cast<float>(camera_.fx / tile);
+  frame.tile_fy = static_cast<float>(camera_.fy / tile);
+  frame.tile_cx = static_cast<float>((camera_.cx + 0.5) / tile + 1);
+  frame.tile_cy = static_cast<float>((camera_.cy + 0.5) / tile + 1);
+  // A voxel and the centre of its cube project within f r sqrt(1 + slope^2) / z of each other, r
+  // half a cube's diagonal and the slope that of the voxel's ray; that must be one tile at most.
+  const double radius = std::sqrt(0.75);
+  const double slope_x = std::max(camera_.cx + 0.5, camera_.width - 0.5 - camera_.cx) / camera_.fx;
+  const double slope_y = std::max(camera_.cy + 0.5, camera_.height - 0.5 - camera_.cy) / camera_.fy;
+  frame.tiles_from = static_cast<float>(
+      radius / tile *
+      std::max(camera_.fx * std::hypot(1, slope_x), camera_.fy * std::hypot(1, slope_y)));
 }
 
 }  // namespace armsreach::mapping

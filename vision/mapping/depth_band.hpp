@@ -1,6 +1,6 @@
 // Where along their rays the pixels of one depth image touch the map: tiles of about 80x60 an
 // image, each with the interval of depths that its pixels' bands cover. Answers which blocks to
-// visit and which of a block's voxels to look at.
+// visit and which of a block's cubes to look at.
 #pragma once
 
 #include <vector>
@@ -24,10 +24,17 @@ class DepthBand {
   // neighbours that only come close.
   std::vector<BlockKey> blocks(const Pose& world_from_camera) const;
 
-  // Of the pixels that a sphere may cover: the union of their bands; and all that lies in front of
-  // the farthest of them (empty for a sphere at the camera, which would cover everything).
-  DepthInterval around(const Eigen::Vector3f& centre_in_camera, float radius) const;
-  DepthInterval in_front(const Eigen::Vector3f& centre_in_camera, float radius) const;
+  // The tiles that the inner loop looks at, for its band or for what lies in front of it: each with
+  // the depths of those beside it.
+  struct Reach {
+    std::vector<DepthInterval> tiles;
+    int columns;
+    int rows;
+    DepthInterval anywhere;
+  };
+  Reach reach(bool carve) const;
+  // Makes the frame look at these tiles, which must live on.
+  void aim(FrameEvidence& frame, const Reach& reach, bool carve) const;
 
  private:
   // Part of a square of pixels' cone.
@@ -37,10 +44,14 @@ class DepthBand {
     DepthInterval depths;
   };
 
-  DepthInterval pixel_interval(int u, int v) const;
+  // Of a pixel, or of all the pixels of a tile.
+  struct Depths {
+    DepthInterval band;
+    float free_to;  // nothing beyond lies in front of the band
+  };
+
+  Depths pixel_depths(int u, int v) const;
   void add_tile(int column, int row);
-  template <class F>
-  void for_tiles(const Eigen::Vector3f& centre, float radius, F&& f) const;
 
   const DepthPlanes& planes_;
   Camera camera_;
@@ -49,7 +60,7 @@ class DepthBand {
   int tile_;  // px
   int columns_;
   int rows_;
-  std::vector<DepthInterval> tiles_;
+  std::vector<Depths> tiles_;
   std::vector<Cone> cones_;
 };
 

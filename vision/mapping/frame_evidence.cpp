@@ -17,12 +17,14 @@ void place_lanes(const Eigen::Matrix3d& rotation, FrameEvidence& frame) {
   };
   for (int i = 0; i < 3; ++i) {
     for (int lane = 0; lane < 8; ++lane) frame.corner[i][lane] = from_first(voxel_at(lane), i);
+    const float to_centre = frame.corner[i][7] / 2;
     for (int cube = 0; cube < kBlockVoxels / 8; ++cube) {
       frame.cube[cube][i] = from_first(voxel_at(8 * cube), i);
+      frame.centre[i][cube] = frame.cube[cube][i] + to_centre;
     }
   }
-  frame.cube_near = *std::min_element(frame.corner[2], frame.corner[2] + 8);
-  frame.cube_far = *std::max_element(frame.corner[2], frame.corner[2] + 8);
+  const auto [near, far] = std::minmax_element(frame.corner[2], frame.corner[2] + 8);
+  frame.half_depth = (*far - *near) / 2;
 }
 
 }  // namespace
@@ -46,7 +48,6 @@ FrameEvidence frame_evidence(const VoxelMapOptions& options, const HitTable& hit
   frame.free = fixed_log_odds(options.sensor.free);
   frame.lowest = fixed_log_odds(options.least_certain);
   frame.highest = fixed_log_odds(options.most_certain);
-  frame.occupied_above = fixed_log_odds(options.occupied_above);
   frame.max_weight =
       static_cast<float>(std::min(options.max_weight / static_cast<double>(kWeightUnit), 65535.0));
   frame.intensity_rate = static_cast<float>(options.intensity_rate);

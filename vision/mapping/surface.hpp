@@ -2,6 +2,7 @@
 // the surface passes through (the vertices of Gibson, "Constrained elastic surface nets", 1998).
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -25,8 +26,16 @@ struct SurfaceBlock {
 };
 using SurfaceBlockPtr = std::shared_ptr<const SurfaceBlock>;
 
-// Points of the cells whose first voxel lies in the block; empty where nothing is mapped.
-std::vector<SurfacePoint> surface_points(const VoxelGrid& grid, const BlockKey& key);
+// A cell that the surface passes through.
+struct SurfaceCell {
+  std::uint8_t x, y, z;  // its first voxel in the block
+  std::uint8_t free;     // bit i: its corner i (x fastest) lies on the free side
+};
+
+// Points of the cells whose first voxel lies in the block, x fastest; empty where nothing is
+// mapped. `cells`, where given, receives each point's cell.
+std::vector<SurfacePoint> surface_points(const VoxelGrid& grid, const BlockKey& key,
+                                         std::vector<SurfaceCell>* cells = nullptr);
 
 // The blocks whose points may have changed with these voxels: they and those before them along each
 // axis; sorted. Blocks that do not exist are named only where they were among the changed: dropped.

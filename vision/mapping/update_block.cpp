@@ -6,22 +6,34 @@ namespace armsreach::mapping {
 
 #ifdef ARMSREACH_KERNEL_AVX2
 namespace avx2 {
-bool update_block(Block& block, const float (&origin)[3], const DepthIntervals& depths,
-                  const FrameEvidence& frame);
+std::uint64_t cubes_in_reach(const float (&origin)[3], const FrameEvidence& frame);
+std::uint64_t update_cubes(const Block& block, const float (&origin)[3], std::uint64_t cubes,
+                           const FrameEvidence& frame, BlockCubes& updated);
+}  // namespace avx2
+static bool has_avx2() {
+  static const bool has = __builtin_cpu_supports("avx2");
+  return has;
 }
 #endif
 namespace baseline {
-bool update_block(Block& block, const float (&origin)[3], const DepthIntervals& depths,
-                  const FrameEvidence& frame);
+std::uint64_t cubes_in_reach(const float (&origin)[3], const FrameEvidence& frame);
+std::uint64_t update_cubes(const Block& block, const float (&origin)[3], std::uint64_t cubes,
+                           const FrameEvidence& frame, BlockCubes& updated);
+}  // namespace baseline
+
+std::uint64_t cubes_in_reach(const float (&origin)[3], const FrameEvidence& frame) {
+#ifdef ARMSREACH_KERNEL_AVX2
+  if (has_avx2()) return avx2::cubes_in_reach(origin, frame);
+#endif
+  return baseline::cubes_in_reach(origin, frame);
 }
 
-bool update_block(Block& block, const float (&origin)[3], const DepthIntervals& depths,
-                  const FrameEvidence& frame) {
+std::uint64_t update_cubes(const Block& block, const float (&origin)[3], std::uint64_t cubes,
+                           const FrameEvidence& frame, BlockCubes& updated) {
 #ifdef ARMSREACH_KERNEL_AVX2
-  static const bool has_avx2 = __builtin_cpu_supports("avx2");
-  if (has_avx2) return avx2::update_block(block, origin, depths, frame);
+  if (has_avx2()) return avx2::update_cubes(block, origin, cubes, frame, updated);
 #endif
-  return baseline::update_block(block, origin, depths, frame);
+  return baseline::update_cubes(block, origin, cubes, frame, updated);
 }
 
 }  // namespace armsreach::mapping

@@ -6,8 +6,9 @@
 #include "vision/mapping/update_block.hpp"
 
 namespace armsreach::mapping::ARMSREACH_KERNEL_LEVEL {
-bool update_block(Block& block, const float (&origin)[3], const DepthIntervals& depths,
-                  const FrameEvidence& frame);
+std::uint64_t cubes_in_reach(const float (&origin)[3], const FrameEvidence& frame);
+std::uint64_t update_cubes(const Block& block, const float (&origin)[3], std::uint64_t cubes,
+                           const FrameEvidence& frame, BlockCubes& updated);
 
 namespace {
 
@@ -226,7 +227,8 @@ inline void add_distance(VoxelCube& cube, const Lanes& lanes, const Surface& s, 
   if (any(near)) add_intensity(cube, lanes, near, share, f);
 }
 
-inline bool update_cube(VoxelCube& cube, const float (&start)[3], const FrameEvidence& f) {
+inline bool update_cube(const VoxelCube& before, const float (&start)[3], const FrameEvidence& f,
+                        VoxelCube& after) {
   Lanes lanes;
   if (!project(lanes, start, f)) return false;
   Surface s;
@@ -240,58 +242,75 @@ inline bool update_cube(VoxelCube& cube, const float (&start)[3], const FrameEvi
   // slanted. What is known farther in front is free now.
   Floats reach = 2.0F * noise;
   most(reach, Floats{} + 2.0F);
-  Words weight;
-  load(weight, cube.weight);
-  const Ints known = __builtin_convertvector(weight, Ints) > 0;
-  Ints banded, valid;
-  if (f.carve) {
-    banded = s.known & known & (s.ahead > band);
-    valid = banded;
-  } else {
-    // Behind the margin nothing is said about occupancy: the rest of the band is left alone.
-    const Ints in_band = s.known & (s.ahead <= band);
-    banded = in_band & (s.distance >= (s.trusted ? -margin : margin));
-    valid = s.known & (s.distance >= (s.trusted ? -reach : margin)) &
-            ((s.distance <= reach) | (in_band & known));
-  }
+  // Behind the margin nothing is said about occupancy: the rest of the band is left alone.
+  const Ints in_band = s.known & (s.ahead <= band);
+  const Ints in_reach = s.known & (s.distance >= (s.trusted ? -reach : margin));
+  Ints banded = in_band & (s.distance >= (s.trusted ? -margin : margin));
+  Ints valid = in_reach & ((s.distance <= reach) | in_band);
+  if (f.carve) banded = valid = s.known & (s.ahead > band);
+  // Most cubes end here, their memory untouched.
   if (!any(banded | valid)) return false;
-  if (any(banded)) add_log_odds(cube, s, margin, banded, f);
-  if (any(valid)) add_distance(cube, lanes, s, valid, f);
+  Words weight;
+  load(weight, before.weight);
+  const Ints known = __builtin_convertvector(weight, Ints) > 0;
+  if (f.carve) banded &= known;
+  valid &= known | (f.carve ? Ints{} : s.distance <= reach);
+  if (!any(banded | valid)) return false;
+  after = before;
+  if (any(banded)) add_log_odds(after, s, margin, banded, f);
+  if (any(valid)) add_distance(after, lanes, s, valid, f);
   return true;
 }
 
 }  // namespace
 
-bool update_block(Block& block, const float (&origin)[3], const DepthIntervals& depths,
-                  const FrameEvidence& frame) {
-  bool changed = false;
-  for (int octant = 0; octant < 8; ++octant) {
-    const DepthInterval& looked_at = depths.octant[octant];
-    if (looked_at.near > looked_at.far) continue;
-    for (int i = 0; i < 8; ++i) {
-      const int x = 2 * (octant & 1) + (i & 1);
-      const int y = (octant & 2) + (i >> 1 & 1);
-      const int z = (octant >> 1 & 2) + (i >> 2);
-      const int cube = x + 4 * y + 16 * z;
-      const float* offset = frame.cube[cube];
-      const float depth = origin[2] + offset[2];
-      if (depth + frame.cube_far < looked_at.near || depth + frame.cube_near > looked_at.far) {
-        continue;
-      }
-      const float start[3] = {origin[0] + offset[0], origin[1] + offset[1], depth};
-      changed |= update_cube(block.cubes[cube], start, frame);
+std::uint64_t cubes_in_reach(const float (&origin)[3], const FrameEvidence& frame) {
+  std::uint64_t cubes = 0;
+  for (int first = 0; first < kBlockVoxels / 8; first += kLanes) {
+    Floats x, y, z;
+    load(x, frame.centre[0] + first);
+    load(y, frame.centre[1] + first);
+    load(z, frame.centre[2] + first);
+    x += origin[0];
+    y += origin[1];
+    z += origin[2];
+    const Floats inverse = 1.0F / z;
+    Floats column = frame.tile_fx * x * inverse + frame.tile_cx;
+    Floats row = frame.tile_fy * y * inverse + frame.tile_cy;
+    const Ints tiled = z >= frame.tiles_from;
+    const Ints inside = tiled & (column >= 0.0F) & (row >= 0.0F) &
+                        (column < static_cast<float>(frame.tile_columns)) &
+                        (row < static_cast<float>(frame.tile_rows));
+    column = inside ? column : Floats{};
+    row = inside ? row : Floats{};
+    const Ints tile = __builtin_convertvector(row, Ints) * frame.tile_columns +
+                      __builtin_convertvector(column, Ints);
+    Floats near = Floats{} + frame.anywhere.near;
+    Floats far = Floats{} + frame.anywhere.far;
+    for (int i = 0; i < kLanes; ++i) {
+      if (inside[i] == 0) continue;
+      near[i] = frame.tiles[tile[i]].near;
+      far[i] = frame.tiles[tile[i]].far;
+    }
+    const Ints reached =
+        (inside | ~tiled) & (z + frame.half_depth >= near) & (z - frame.half_depth <= far);
+    for (int i = 0; i < kLanes; ++i) {
+      cubes |= static_cast<std::uint64_t>(reached[i] & 1) << (first + i);
     }
   }
-  if (!changed) return false;
-  Shorts highest = Shorts{} + frame.lowest;
-  for (const VoxelCube& cube : block.cubes) {
-    Shorts values;
-    load(values, cube.log_odds);
-    highest = values > highest ? values : highest;
+  return cubes;
+}
+
+std::uint64_t update_cubes(const Block& block, const float (&origin)[3], std::uint64_t cubes,
+                           const FrameEvidence& frame, BlockCubes& updated) {
+  std::uint64_t changed = 0;
+  for (; cubes != 0; cubes &= cubes - 1) {
+    const int cube = __builtin_ctzll(cubes);
+    const float* offset = frame.cube[cube];
+    const float start[3] = {origin[0] + offset[0], origin[1] + offset[1], origin[2] + offset[2]};
+    if (update_cube(block.cubes[cube], start, frame, updated[cube])) changed |= cubes & -cubes;
   }
-  block.occupied = false;
-  for (int i = 0; i < kLanes; ++i) block.occupied |= highest[i] > frame.occupied_above;
-  return true;
+  return changed;
 }
 
 }  // namespace armsreach::mapping::ARMSREACH_KERNEL_LEVEL

@@ -1,6 +1,7 @@
 #include "vision/mapping/voxel_map.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <iterator>
 #include <memory>
@@ -17,31 +18,6 @@ namespace {
 // Centre of a block's voxel (0,0,0), in voxel edges.
 Eigen::Vector3d first_voxel(const BlockKey& key) {
   return kBlockEdge * Eigen::Vector3d(key.x, key.y, key.z) + Eigen::Vector3d::Constant(0.5);
-}
-
-// Which depths matter to each octant of a block; false when none does. `first` is the centre of the
-// block's first voxel in the camera's frame, in voxel edges.
-bool look(const DepthBand& band, const Eigen::Vector3f& first, const FrameEvidence& frame,
-          DepthIntervals& depths) {
-  constexpr float kRadius = 0.8660254F * 3;  // around the centres of an octant's voxels
-  const auto step = [&](int axis) {
-    return Eigen::Vector3f(frame.step[axis][0], frame.step[axis][1], frame.step[axis][2]);
-  };
-  const Eigen::Vector3f middle = first + 1.5F * (step(0) + step(1) + step(2));
-  bool any = false;
-  for (int octant = 0; octant < 8; ++octant) {
-    Eigen::Vector3f centre = middle;
-    for (int axis = 0; axis < 3; ++axis) {
-      if ((octant >> axis & 1) != 0) centre += 4.0F * step(axis);
-    }
-    DepthInterval& interval = depths.octant[octant];
-    interval = frame.carve ? band.in_front(centre, kRadius) : band.around(centre, kRadius);
-    if (centre.z() - kRadius > interval.far || centre.z() + kRadius < interval.near) {
-      interval = {1, 0};
-    }
-    any |= interval.near <= interval.far;
-  }
-  return any;
 }
 
 }  // namespace
@@ -64,14 +40,17 @@ void VoxelMap::insert(const cv::Mat& depth, const cv::Mat& intensity, const cv::
   FrameEvidence frame = frame_evidence(options_, hits_, planes, packed, camera, camera_from_world);
 
   const DepthBand band(planes, camera, options_.sensor, options_.resolution);
-  update(band.blocks(world_from_camera), band, frame, camera_from_world);
+  const DepthBand::Reach in_band = band.reach(false);
+  band.aim(frame, in_band, false);
+  update(band.blocks(world_from_camera), frame, camera_from_world);
   if (options_.carve_every > 0 && insertions_ % options_.carve_every == 0) {
-    frame.carve = true;
+    const DepthBand::Reach in_front = band.reach(true);
+    band.aim(frame, in_front, true);
     std::vector<BlockKey> occupied;
     for_occupied_in_view(grid_, camera, camera_from_world,
                          [&](const BlockKey& key) { occupied.push_back(key); });
     std::sort(occupied.begin(), occupied.end());
-    update(occupied, band, frame, camera_from_world);
+    update(occupied, frame, camera_from_world);
   }
   ++insertions_;
   if (grid_.blocks.block_count() > options_.max_blocks) {
@@ -81,16 +60,28 @@ void VoxelMap::insert(const cv::Mat& depth, const cv::Mat& intensity, const cv::
   }
 }
 
-void VoxelMap::update(const std::vector<BlockKey>& keys, const DepthBand& band,
-                      const FrameEvidence& frame, const Pose& camera_from_world) {
+void VoxelMap::update(const std::vector<BlockKey>& keys, const FrameEvidence& frame,
+                      const Pose& camera_from_world) {
   const Eigen::Matrix3d rotation = camera_from_world.rotation_matrix();
   const Eigen::Vector3d translation = camera_from_world.translation() / options_.resolution;
+  static const Block kUnseen;
+  BlockCubes updated;
   for (const BlockKey& key : keys) {
-    const Eigen::Vector3f origin = (rotation * first_voxel(key) + translation).cast<float>();
-    DepthIntervals depths;
-    if (!look(band, origin, frame, depths)) continue;
+    const Eigen::Vector3f first = (rotation * first_voxel(key) + translation).cast<float>();
+    const float origin[3] = {first.x(), first.y(), first.z()};
+    const std::uint64_t cubes = cubes_in_reach(origin, frame);
+    if (cubes == 0) continue;
+    // Blocks are copied for writing where a snapshot has them too: only those that change.
+    const Block* stored = grid_.blocks.find(key);
+    const std::uint64_t changed =
+        update_cubes(stored ? *stored : kUnseen, origin, cubes, frame, updated);
+    if (changed == 0) continue;
     const std::shared_ptr<Block> block = grid_.blocks.edit(key);
-    if (!update_block(*block, {origin.x(), origin.y(), origin.z()}, depths, frame)) continue;
+    for (std::uint64_t rest = changed; rest != 0; rest &= rest - 1) {
+      const int cube = std::countr_zero(rest);
+      block->cubes[cube] = updated[cube];
+    }
+    block->occupied = has_occupied(*block, grid_.occupied_above);
     grid_.blocks.put(key, block);
     changed_.push_back(key);
   }
@@ -114,10 +105,7 @@ void VoxelMap::put(const BlockKey& key, const Block& block) {
   const std::uint64_t epoch = target->epoch;
   *target = block;
   target->epoch = epoch;
-  target->occupied = false;
-  for (int at = 0; at < kBlockVoxels; ++at) {
-    target->occupied |= block.log_odds(at) > grid_.occupied_above;
-  }
+  target->occupied = has_occupied(*target, grid_.occupied_above);
   grid_.blocks.put(key, target);
   changed_.push_back(key);
 }

@@ -17,7 +17,6 @@
 
 namespace armsreach::mapping {
 
-class DepthBand;
 struct FrameEvidence;
 
 struct VoxelMapOptions {
@@ -34,7 +33,7 @@ struct VoxelMapOptions {
   // Every so many insertions also clear what the map still has in front of the band: things that
   // were carried away. 0: never.
   int carve_every = 2;
-  // Memory bound: 4.2 kB a block; mapped surface takes 1.5 to 2 MB a square metre at 1 cm. Beyond
+  // Memory bound: 4.2 kB a block; mapped surface takes about 2 MB a square metre at 1 cm. Beyond
   // it the regions that were seen longest ago are forgotten.
   std::size_t max_blocks = 40'000;
 };
@@ -61,7 +60,7 @@ class VoxelMap {
   void put(const BlockKey& key, const Block& block);
 
  private:
-  void update(const std::vector<BlockKey>& keys, const DepthBand& band, const FrameEvidence& frame,
+  void update(const std::vector<BlockKey>& keys, const FrameEvidence& frame,
               const Pose& camera_from_world);
 
   VoxelMapOptions options_;

@@ -14,10 +14,10 @@ namespace armsreach {
 namespace {
 
 using test::color_image;
-using test::TemporaryFolder;
+using test::RecordedFolder;
 
 TEST(ImageRecording, ReadsEveryFormatInNameOrderAtItsRate) {
-  const TemporaryFolder folder;
+  const RecordedFolder folder;
   folder.write("notes.txt", "not an image");
   const char* names[] = {"a.bmp", "b.PNG", "c.jpg", "d.jpeg", "e.ppm", "f.pgm"};
   for (int i = 4; i >= 0; --i) cv::imwrite(folder / names[i], color_image(32, 24, i));
@@ -40,7 +40,7 @@ TEST(ImageRecording, ReadsEveryFormatInNameOrderAtItsRate) {
 }
 
 TEST(ImageRecording, WithoutCalibrationGuessesAndSaysSo) {
-  const TemporaryFolder folder;
+  const RecordedFolder folder;
   cv::imwrite(folder / "a.png", color_image(32, 24, 0));
   const auto recording = open_image_recording(folder.path(), 30, {});
   ASSERT_TRUE(recording) << recording.error().message();
@@ -55,7 +55,7 @@ TEST(ImageRecording, WithoutCalibrationGuessesAndSaysSo) {
 }
 
 TEST(ImageRecording, CalibrationComesFromTheFolderAndFramesFromWithin) {
-  const TemporaryFolder folder;
+  const RecordedFolder folder;
   std::filesystem::create_directory(folder / "frames");
   cv::imwrite(folder / "frames/a.png", color_image(32, 24, 0));
   cv::imwrite(folder / "target.png", color_image(11, 11, 0));
@@ -68,7 +68,7 @@ TEST(ImageRecording, CalibrationComesFromTheFolderAndFramesFromWithin) {
 }
 
 TEST(ImageRecording, ABrokenFirstImageDoesNotHideTheOthers) {
-  const TemporaryFolder folder;
+  const RecordedFolder folder;
   folder.write("a.png", "not an image");
   cv::imwrite(folder / "b.png", color_image(32, 24, 0));
   const auto recording = open_image_recording(folder.path(), 30, {});
@@ -78,7 +78,7 @@ TEST(ImageRecording, ABrokenFirstImageDoesNotHideTheOthers) {
 }
 
 TEST(ImageRecording, RefusesWhatIsNotAFolderOfImages) {
-  const TemporaryFolder folder;
+  const RecordedFolder folder;
   EXPECT_NE(open_image_recording(folder.path(), 30, {}).error().what.find("no images"),
             std::string::npos);
   EXPECT_FALSE(open_image_recording(folder / "absent", 30, {}));
@@ -90,7 +90,7 @@ TEST(ImageRecording, RefusesWhatIsNotAFolderOfImages) {
 TEST(ImageRecording, BrokenImagesAreNamedInEveryFormat) {
   for (const char* extension : {".png", ".jpg", ".pgm", ".ppm", ".bmp"}) {
     for (const double kept : {0.0, 0.1, 0.5, 0.95}) {
-      const TemporaryFolder folder;
+      const RecordedFolder folder;
       const std::string broken = std::string("b") + extension;
       cv::imwrite(folder / "a.png", color_image(64, 48, 0));
       cv::Mat image = color_image(64, 48, 1);
@@ -110,7 +110,7 @@ TEST(ImageRecording, BrokenImagesAreNamedInEveryFormat) {
 
 // A camera's JPEG carries a small JPEG with an end marker of its own before the picture.
 TEST(ImageRecording, AThumbnailsEndIsNotThePicturesEnd) {
-  const TemporaryFolder folder;
+  const RecordedFolder folder;
   cv::imwrite(folder / "a.jpg", color_image(64, 48, 0));
   const std::string picture = folder.read("a.jpg");
   const std::string thumbnail = std::string("\xff\xe1\x00\x08", 4) + "ab\xff\xd9\xff\xd9";

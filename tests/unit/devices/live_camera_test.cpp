@@ -103,7 +103,7 @@ TEST(V4l2, AbsentCamerasAndWrongNumbersSayWhatToDo) {
 }
 
 TEST(V4l2, ProbeSaysWhatIsThereAndWhyNot) {
-  const test::TemporaryFolder devices;
+  const test::RecordedFolder devices;
   const auto none = probe_v4l2(devices.path());
   ASSERT_EQ(none.size(), 1U);
   EXPECT_FALSE(none[0].usable);

@@ -1,12 +1,9 @@
 #include "tests/unit/devices/recorded_folder.hpp"
 
 #include <cstdint>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <sstream>
-#include <stdexcept>
-#include <unistd.h>
 
 #include <opencv2/imgcodecs.hpp>
 
@@ -14,34 +11,26 @@ namespace armsreach::test {
 
 namespace fs = std::filesystem;
 
-TemporaryFolder::TemporaryFolder() {
-  std::string pattern = fs::temp_directory_path() / "armsreach-XXXXXX";
-  if (!mkdtemp(pattern.data())) throw std::runtime_error("no temporary folder");
-  path_ = pattern;
+void RecordedFolder::write(const std::string& name, const std::string& text) const {
+  fs::create_directories((path() / name).parent_path());
+  std::ofstream(path() / name, std::ios::binary) << text;
 }
 
-TemporaryFolder::~TemporaryFolder() { fs::remove_all(path_); }
-
-void TemporaryFolder::write(const std::string& name, const std::string& text) const {
-  fs::create_directories((path_ / name).parent_path());
-  std::ofstream(path_ / name, std::ios::binary) << text;
-}
-
-std::string TemporaryFolder::read(const std::string& name) const {
-  std::ifstream in(path_ / name, std::ios::binary);
+std::string RecordedFolder::read(const std::string& name) const {
+  std::ifstream in(path() / name, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-void TemporaryFolder::replace(const std::string& name, const std::string& from,
-                              const std::string& to) const {
+void RecordedFolder::replace(const std::string& name, const std::string& from,
+                             const std::string& to) const {
   std::string text = read(name);
   text.replace(text.find(from), from.size(), to);  // throws when it is not there
   write(name, text);
 }
 
-void TemporaryFolder::truncate(const std::string& name, double kept_fraction) const {
-  const auto size = static_cast<double>(fs::file_size(path_ / name));
-  fs::resize_file(path_ / name, static_cast<std::uintmax_t>(size * kept_fraction));
+void RecordedFolder::truncate(const std::string& name, double kept_fraction) const {
+  const auto size = static_cast<double>(fs::file_size(path() / name));
+  fs::resize_file(path() / name, static_cast<std::uintmax_t>(size * kept_fraction));
 }
 
 std::string camera_yaml(int width, int height) {
@@ -65,7 +54,7 @@ cv::Mat color_image(int width, int height, int seed) {
   return image;
 }
 
-void write_small_recording(const TemporaryFolder& folder) {
+void write_small_recording(const RecordedFolder& folder) {
   fs::create_directories(folder / "rgb");
   fs::create_directories(folder / "depth");
   std::string rgb = "# color images\n";

@@ -6,28 +6,19 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include "tests/support/program.hpp"
 #include "vision/core/time.hpp"
 
 namespace armsreach::test {
 
-class TemporaryFolder {
+class RecordedFolder : public TemporaryFolder {
  public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
   void write(const std::string& name, const std::string& text) const;
   std::string read(const std::string& name) const;
   void replace(const std::string& name, const std::string& from, const std::string& to) const;
-  void remove(const std::string& name) const { std::filesystem::remove(path_ / name); }
+  void remove(const std::string& name) const { std::filesystem::remove(path() / name); }
   // Cuts a file's end off.
   void truncate(const std::string& name, double kept_fraction) const;
-
- private:
-  std::filesystem::path path_;
 };
 
 // 32x24 pixels, three frames at 0, 0.1 and 0.2 s in rgb/N.png and depth/N.png with rgb.txt,
@@ -35,7 +26,7 @@ class TemporaryFolder {
 constexpr int kWidth = 32;
 constexpr int kHeight = 24;
 constexpr Timestamp kStep = 100'000'000;  // ns
-void write_small_recording(const TemporaryFolder& folder);
+void write_small_recording(const RecordedFolder& folder);
 
 std::string camera_yaml(int width, int height);
 // A textured image, so that a cut-off file is cut within its pixels.

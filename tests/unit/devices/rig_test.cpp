@@ -10,7 +10,7 @@
 namespace armsreach {
 namespace {
 
-using test::TemporaryFolder;
+using test::RecordedFolder;
 
 constexpr const char* kRig =
     "sensors:\n"
@@ -86,7 +86,7 @@ TEST(RigFromSpecs, NamesSensors) {
 }
 
 TEST(OpenRig, FindsFilesBesideTheRigFile) {
-  const TemporaryFolder folder;
+  const RecordedFolder folder;
   test::write_small_recording(folder);
   folder.write("rig.yaml", "sensors: [{name: depth, source: 'tum:.', camera: other.yaml}]");
   folder.write("other.yaml",
@@ -170,7 +170,7 @@ TEST(Rig, StopEndsSensorsAndRestsActuators) {
   bool rested = false;
   std::vector<RigSensor> sensors;
   sensors.push_back({std::make_unique<MadeUpSource>("a", std::vector<Timestamp>{1, 4}), {}});
-  std::vector<std::unique_ptr<Actuator>> actuators;
+  std::vector<std::shared_ptr<Actuator>> actuators;
   actuators.push_back(std::make_unique<MadeUpActuator>(&rested));
   Rig rig(std::move(sensors), std::move(actuators));
   ASSERT_TRUE(rig.next().value());
@@ -184,8 +184,8 @@ TEST(OpenRig, RefusesSensorsWithoutACommonClockAndOneCameraForMany) {
   kind.name = "made-up";
   kind.open = [](const SourceSpec& spec,
                  const OpenOptions& options) -> Result<std::unique_ptr<Source>> {
-    return std::unique_ptr<Source>(std::make_unique<MadeUpSource>(
-        options.sensor, std::vector<Timestamp>{0}, spec.place == "live"));
+    return std::make_unique<MadeUpSource>(options.sensor, std::vector<Timestamp>{0},
+                                          spec.place == "live");
   };
   const auto mixed = rig_from_specs({"a=made-up:live", "b=made-up:recorded"});
   const auto refused = open_rig(*mixed, std::nullopt, {kind});

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 using test::kHeight;
 using test::kStep;
 using test::kWidth;
-using test::TemporaryFolder;
+using test::RecordedFolder;
 
 class TumRecordingTest : public ::testing::Test {
  protected:
@@ -37,7 +37,7 @@ class TumRecordingTest : public ::testing::Test {
     return recording ? Error{"opened", "", ""} : recording.error();
   }
 
-  TemporaryFolder folder_;
+  RecordedFolder folder_;
 };
 
 TEST_F(TumRecordingTest, DeliversColourDepthInMetresTimeAndTruth) {
@@ -46,6 +46,7 @@ TEST_F(TumRecordingTest, DeliversColourDepthInMetresTimeAndTruth) {
   EXPECT_EQ(recording->size(), 3);
   const SensorInfo& sensor = *recording->sensor();
   EXPECT_TRUE(sensor.registered);
+  EXPECT_FALSE(sensor.registration_stated);  // there is no camera_color.yaml
   EXPECT_EQ(sensor.depth_camera->width, kWidth);
   EXPECT_EQ(sensor.color_camera->fx, 30);
   EXPECT_NEAR(sensor.rate, 10, 1e-9);
@@ -91,6 +92,7 @@ TEST_F(TumRecordingTest, TwoCamerasAreNotRegistered) {
   const auto recording = open();
   ASSERT_TRUE(recording);
   EXPECT_FALSE(recording->sensor()->registered);
+  EXPECT_TRUE(recording->sensor()->registration_stated);
   EXPECT_EQ(recording->sensor()->color_camera->width, 64);
   EXPECT_EQ(recording->sensor()->depth_camera->width, kWidth);
   EXPECT_NEAR(recording->sensor()->color_from_depth.translation().x(), -0.02, 1e-12);
@@ -161,7 +163,7 @@ TEST_F(TumRecordingTest, TheGivenCameraTakesTheFilesPlace) {
 // What is wrong with lists and calibration is said when opening.
 TEST_F(TumRecordingTest, BrokenRecordingsAreRefusedByNameWithARemedy) {
   struct Broken {
-    std::function<void(const TemporaryFolder&)> harm;
+    std::function<void(const RecordedFolder&)> harm;
     std::string where;  // the end of it
     std::string what;   // a part of it
   };
@@ -190,7 +192,7 @@ TEST_F(TumRecordingTest, BrokenRecordingsAreRefusedByNameWithARemedy) {
        "quaternion"},
   };
   for (const Broken& broken : all) {
-    const TemporaryFolder folder;
+    const RecordedFolder folder;
     test::write_small_recording(folder);
     broken.harm(folder);
     const auto recording = open_tum_recording(folder.path(), {});
@@ -205,7 +207,7 @@ TEST_F(TumRecordingTest, BrokenRecordingsAreRefusedByNameWithARemedy) {
 
 // As of a recording that was thinned by linking some of its images.
 TEST_F(TumRecordingTest, LinksMadeByItsKeeperAreFollowed) {
-  const TemporaryFolder elsewhere;
+  const RecordedFolder elsewhere;
   cv::imwrite(elsewhere / "1.png", test::color_image(kWidth, kHeight, 1));
   folder_.remove("rgb/1.png");
   fs::create_symlink(elsewhere / "1.png", folder_ / "rgb/1.png");
@@ -221,7 +223,7 @@ TEST_F(TumRecordingTest, NoFolder) {
 // What is wrong with an image is said when reading it, and the next one is fine.
 TEST_F(TumRecordingTest, BrokenFramesAreNamedAndPassedOver) {
   struct Broken {
-    std::function<void(const TemporaryFolder&)> harm;
+    std::function<void(const RecordedFolder&)> harm;
     std::string where;
     std::string what;
   };
@@ -243,7 +245,7 @@ TEST_F(TumRecordingTest, BrokenFramesAreNamedAndPassedOver) {
        "depth/1.png", "3 channel(s) of 8 bits"},
   };
   for (const Broken& broken : all) {
-    const TemporaryFolder folder;
+    const RecordedFolder folder;
     test::write_small_recording(folder);
     broken.harm(folder);
     auto recording = open_tum_recording(folder.path(), {});

@@ -12,7 +12,7 @@
 namespace armsreach {
 namespace {
 
-using test::TemporaryFolder;
+using test::RecordedFolder;
 
 // Motion JPEG: every frame stands alone, and an AVI that is cut off still opens.
 void write_video(const std::filesystem::path& file, int frames) {
@@ -25,7 +25,7 @@ void write_video(const std::filesystem::path& file, int frames) {
 }
 
 TEST(VideoRecording, DeliversEveryFrameAtItsOwnRate) {
-  const TemporaryFolder folder;
+  const RecordedFolder folder;
   write_video(folder / "video.avi", 10);
   const auto recording = open_video_recording(folder / "video.avi", {});
   ASSERT_TRUE(recording) << recording.error().message();
@@ -42,7 +42,7 @@ TEST(VideoRecording, DeliversEveryFrameAtItsOwnRate) {
 }
 
 TEST(VideoRecording, FramesAreTheSameInAnyOrder) {
-  const TemporaryFolder folder;
+  const RecordedFolder folder;
   write_video(folder / "video.avi", 80);
   const auto recording = open_video_recording(folder / "video.avi", {});
   ASSERT_TRUE(recording) << recording.error().message();
@@ -59,7 +59,7 @@ TEST(VideoRecording, FramesAreTheSameInAnyOrder) {
 }
 
 TEST(VideoRecording, ACutOffVideoEndsEarlyAndSaysSo) {
-  const TemporaryFolder folder;
+  const RecordedFolder folder;
   write_video(folder / "video.avi", 80);
   folder.truncate("video.avi", 0.5);
   auto recording = open_video_recording(folder / "video.avi", {});
@@ -77,7 +77,7 @@ TEST(VideoRecording, ACutOffVideoEndsEarlyAndSaysSo) {
 }
 
 TEST(VideoRecording, RefusesWhatIsNotAVideoOrHasAnotherCamera) {
-  const TemporaryFolder folder;
+  const RecordedFolder folder;
   EXPECT_FALSE(open_video_recording(folder / "absent.mp4", {}));
   EXPECT_FALSE(open_video_recording(folder.path(), {}));
   folder.write("text.mp4", "not a video");

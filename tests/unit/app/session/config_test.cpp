@@ -49,6 +49,8 @@ TEST(Config, RefusesByName) {
       {"layout: fancy", "layout"},
       {"size: [12]", "size"},
       {"size: [1, 1]", "size"},
+      {"size: [640, 0]", "size"},
+      {"size: [640.5, 480]", "size"},
       {"actions: {frame: 1}", "actions"},
       {"actions: [{frame: -1, click: [1, 1]}]", "actions[0].frame"},
       {"actions: [{view: left, click: [1, 1]}]", "actions[0].view"},

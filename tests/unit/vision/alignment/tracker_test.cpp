@@ -82,6 +82,24 @@ TEST(Tracker, GoesOnInitialisingUntilItSeesSomething) {
             TrackingState::tracking);
 }
 
+TEST(Tracker, TakesOverAColorCameraThatBecomesKnown) {
+  const SyntheticRoom room;
+  Tracker tracker(options());
+  const FramePtr assumed = frame_at(room, 0, kStart);
+  tracker.track(assumed, nullptr);
+  auto sensor = std::make_shared<SensorInfo>(*assumed->sensor);
+  sensor->registered = false;
+  sensor->color_camera->cx += 40;
+  auto known = std::make_shared<Frame>(*frame_at(room, 1, kStart));
+  known->sensor = sensor;
+  const TrackedFrame tracked = tracker.track(known, nullptr);
+  EXPECT_EQ(tracked.state, TrackingState::tracking);
+  EXPECT_LT(distance(tracked.world_from_camera, kStart), 0.01);  // depth has not moved
+  const float seen = tracked.intensity.at<float>(30, 40);
+  EXPECT_EQ(seen, FrameReducer(sensor, 80).reduce(*known).intensity.at<float>(30, 40));
+  EXPECT_NE(seen, FrameReducer(assumed->sensor, 80).reduce(*known).intensity.at<float>(30, 40));
+}
+
 TEST(Tracker, FollowsAHandHeldPathAndKeyFramesDriftLess) {
   const SyntheticRoom room = kinect_room();
   std::vector<double> worst;

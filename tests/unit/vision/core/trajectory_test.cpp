@@ -69,7 +69,8 @@ TEST(Trajectory, TextRoundTripAndBadLines) {
   ASSERT_TRUE(read);
   EXPECT_EQ(read->size(), 5U);
 
-  for (const char* line : {"0 1 2 3 0 0 0", "a b c", "0 nan 0 0 0 0 0 1", "0 0 0 0 0 0 0 0"}) {
+  for (const char* line : {"0 1 2 3 0 0 0", "a b c", "0 nan 0 0 0 0 0 1", "0 0 0 0 0 0 0 0",
+                           "1e300 0 0 0 0 0 0 1", "-1e10 0 0 0 0 0 0 1"}) {
     std::istringstream bad(std::string("# comment\n") + line + "\n");
     const auto result = read_tum_trajectory(bad, "t.txt");
     ASSERT_FALSE(result) << line;

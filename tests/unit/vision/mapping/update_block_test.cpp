@@ -5,15 +5,17 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/vision/mapping/shapes.hpp"
+#include "vision/mapping/depth_band.hpp"
 #include "vision/mapping/frame_evidence.hpp"
 
 namespace armsreach::mapping {
 
 // The build for the plainest processor; `update_block` is the one for this processor.
 namespace baseline {
-bool update_block(Block& block, const float (&origin)[3], const DepthIntervals& depths,
-                  const FrameEvidence& frame);
-}
+std::uint64_t cubes_in_reach(const float (&origin)[3], const FrameEvidence& frame);
+std::uint64_t update_cubes(const Block& block, const float (&origin)[3], std::uint64_t cubes,
+                           const FrameEvidence& frame, BlockCubes& updated);
+}  // namespace baseline
 
 namespace {
 
@@ -35,29 +37,32 @@ TEST(UpdateBlock, EveryProcessorLevelGivesTheSameBits) {
   const Pose camera_from_world =
       Pose::exp((Vector6d() << 0.01, 0.02, 0, 0.1, -0.2, 0.05).finished());
   FrameEvidence frame = frame_evidence(options, hits, planes, intensity, camera, camera_from_world);
-  DepthIntervals everything;
-  for (DepthInterval& octant : everything.octant) octant = {0, 1e9F};
+  const DepthBand band(planes, camera, options.sensor, options.resolution);
 
   int changed = 0;
   for (const bool carve : {false, true}) {
-    frame.carve = carve;
+    const DepthBand::Reach reach = band.reach(carve);
+    band.aim(frame, reach, carve);
     for (int i = 0; i < 200; ++i) {
-      Block ours;
+      Block stored;
       for (int at = 0; at < kBlockVoxels; at += 3) {
-        ours.weight(at) = static_cast<std::uint16_t>(at * i % 5000);
-        ours.distance(at) = static_cast<std::int16_t>(at * 13 % 2000 - 1000);
-        ours.log_odds(at) = static_cast<std::int16_t>(at * 7 % 3000 - 1500);
+        stored.weight(at) = static_cast<std::uint16_t>(at * i % 5000);
+        stored.distance(at) = static_cast<std::int16_t>(at * 13 % 2000 - 1000);
+        stored.log_odds(at) = static_cast<std::int16_t>(at * 7 % 3000 - 1500);
       }
-      Block plain = ours;
       const float origin[3] = {static_cast<float>(8 * (i % 10) - 40),
                                static_cast<float>(8 * (i / 10 % 4) - 16),
                                static_cast<float>(80 + 12 * (i / 40))};
-      const bool one = update_block(ours, origin, everything, frame);
-      const bool other = baseline::update_block(plain, origin, everything, frame);
-      EXPECT_EQ(one, other);
-      EXPECT_EQ(std::memcmp(ours.cubes, plain.cubes, sizeof(ours.cubes)), 0) << i;
-      EXPECT_EQ(ours.occupied, plain.occupied);
-      changed += one;
+      constexpr std::uint64_t kEverything = ~std::uint64_t{0};
+      BlockCubes fast{};
+      BlockCubes plain{};
+      const std::uint64_t cubes = update_cubes(stored, origin, kEverything, frame, fast);
+      EXPECT_EQ(cubes, baseline::update_cubes(stored, origin, kEverything, frame, plain)) << i;
+      EXPECT_EQ(std::memcmp(fast, plain, sizeof(fast)), 0) << i;
+      const std::uint64_t reached = cubes_in_reach(origin, frame);
+      EXPECT_EQ(reached, baseline::cubes_in_reach(origin, frame)) << i;
+      EXPECT_EQ(cubes & ~reached, 0U) << "what is not looked at would not change";
+      changed += cubes != 0;
     }
   }
   EXPECT_GT(changed, 100);

@@ -1,0 +1,23 @@
+// The rig that a command line asks for.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "devices/rig.hpp"
+#include "vision/core/result.hpp"
+
+namespace armsreach::app {
+
+struct RigOptions {
+  std::vector<std::string> sources;  // SPEC, or NAME=SPEC
+  std::string rig;                   // a rig file instead
+  std::string camera;                // camera YAML in place of the source's own, or empty
+  std::uint64_t seed = 1;            // of simulated sources that are given none
+};
+
+Result<std::unique_ptr<Rig>> open_rig(const RigOptions& options);
+
+}  // namespace armsreach::app
