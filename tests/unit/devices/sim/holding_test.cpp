@@ -9,8 +9,8 @@ Pose standing(const PlacedThing& placed) { return placed.world_from_thing; }
 
 World world_with_two_things() {
   World world;
-  world.things.push_back({"stone", Box{{0.1, 0.1, 0.1}}, {{1, 0, 0, 0}, {5, 5, 5}}, 0});
-  world.things.push_back({"hammer", Box{{0.1, 0.02, 0.02}}, {{1, 0, 0, 0}, {1, 0, 0}}, 0});
+  world.things.push_back({"stone", {{1, 0, 0, 0}, {5, 5, 5}}, {}, false});
+  world.things.push_back({"hammer", {{1, 0, 0, 0}, {1, 0, 0}}, {}, true});
   return world;
 }
 
