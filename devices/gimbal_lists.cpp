@@ -6,6 +6,8 @@
 #include <limits>
 #include <sstream>
 
+#include <nlohmann/json.hpp>
+
 namespace armsreach {
 
 Result<std::vector<GimbalState>> read_gimbal_states(std::istream& in, const std::string& where) {
@@ -42,11 +44,10 @@ void write_gimbal_state(std::ostream& out, const GimbalState& state) {
 }
 
 void write_gimbal_command(std::ostream& out, const GimbalCommand& command) {
-  std::ostringstream line;
-  line << std::setprecision(std::numeric_limits<double>::max_digits10) << "{\"t\": "
-       << seconds_from_timestamp(command.time) << ", \"angles\": [" << command.angles[0] << ", "
-       << command.angles[1] << ", " << command.angles[2] << "]}\n";
-  out << line.str();
+  const Eigen::Vector3d& a = command.angles;
+  const nlohmann::json json{{"t", seconds_from_timestamp(command.time)},
+                            {"angles", {a[0], a[1], a[2]}}};
+  out << json.dump() << '\n';
 }
 
 }  // namespace armsreach

@@ -125,6 +125,41 @@ Status apply_infrared(const SourceSpec& spec, sim::InfraredDescription& infrared
   return ok();
 }
 
+// Where the camera is carried and through what lens it looks: worlds with a wearer can be seen from
+// the head and from the shoulder.
+Status apply_mount(const SourceSpec& spec, sim::World& world) {
+  const std::string mount = option(spec, "mount").value_or("");
+  const bool known = mount.empty() || mount == "path" || mount == "head" || mount == "shoulder";
+  if (!known) {
+    return Error{"option 'mount' is '" + mount + "'", text_of(spec), "give path, head or shoulder"};
+  }
+  if ((mount == "head" || mount == "shoulder") && !world.wearer) {
+    return Error{"nobody wears a camera in '" + world.name + "'", text_of(spec),
+                 "leave mount out, or take a world with a wearer, such as kitchen-table"};
+  }
+  if (mount == "path" && world.path.keys.empty()) {
+    return Error{"the world '" + world.name + "' has no path", text_of(spec),
+                 "give mount=head or mount=shoulder"};
+  }
+  if (!mount.empty()) {
+    world.sensor.path.reset();
+    world.sensor.mount = mount == "head"       ? sim::Mount::head
+                         : mount == "shoulder" ? sim::Mount::shoulder
+                                               : sim::Mount::path;
+  }
+  const double degree = std::numbers::pi / 180;
+  auto lens = number_option(spec, "lens", world.sensor.field_of_view / degree, 5, 150);
+  if (!lens) return lens.error();
+  world.sensor.field_of_view = *lens * degree;
+  const std::string gimbal = option(spec, "gimbal").value_or("");
+  if (!gimbal.empty() && gimbal != "yes" && gimbal != "no") {
+    return Error{"option 'gimbal' is '" + gimbal + "'", text_of(spec), "give yes or no"};
+  }
+  if (gimbal == "yes" && !world.sensor.gimbal) world.sensor.gimbal = GimbalModel{};
+  if (gimbal == "no") world.sensor.gimbal.reset();
+  return ok();
+}
+
 Status apply_loop(const SourceSpec& spec, const sim::World& world, sim::SimOptions& options) {
   const auto text = option(spec, "loop");
   if (!text) return ok();
@@ -148,6 +183,7 @@ Result<std::unique_ptr<Source>> open_sim(const SourceSpec& spec, const OpenOptio
   auto world = sim::load_world(spec.place);
   if (!world) return world.error();
   if (auto status = apply_sensor(spec, world->sensor); !status) return status.error();
+  if (auto status = apply_mount(spec, *world); !status) return status.error();
   sim::SimOptions options;
   options.sensor_name = open_options.sensor;
   auto seed = number_option(spec, "seed", 1, 0, 1e15);
@@ -186,14 +222,16 @@ std::vector<SourceKind> sim_source_kinds() {
   SourceKind kind;
   kind.name = "sim";
   kind.usage =
-      "sim:WORLD[,sensor=main|ir][,seed=N][,noise=none|kinect|FACTOR][,speed=X][,frames=N][,loop="
-      "endless]"
+      "sim:WORLD|FILE.yaml[,sensor=main|ir][,seed=N][,noise=none|kinect|FACTOR][,speed=X]"
+      "[,frames=N][,loop=endless]"
       "[,width=PX][,height=PX][,rate=HZ][,near=M][,far=M]"
+      "[,mount=path|head|shoulder][,lens=DEG][,gimbal=yes|no]"
       "[,color=clean|webcam][,color_noise=LEVELS][,exposure_ms=MS][,exposure_lag=S]"
       "[,exposure_drift=SHARE][,white_balance_drift=SHARE][,jpeg=QUALITY]";
-  kind.option_keys = {"seed", "noise", "speed", "frames", "loop", "width", "height",
-                      "rate", "near",  "far",   "color",  "jpeg", "sensor"};
+  kind.option_keys = {"seed", "noise", "speed", "frames", "loop",  "width", "height", "rate",
+                      "near", "far",   "color", "jpeg",   "mount", "lens",  "gimbal", "sensor"};
   for (const ColorOption& one : kColorOptions) kind.option_keys.emplace_back(one.key);
+  kind.place_is_path = sim::is_world_file;
   kind.open = open_sim;
   kind.probe = probe_worlds;
   // A simulated hand can be drawn into whatever else can be opened.

@@ -30,6 +30,8 @@ constexpr double kWalkRoll = 0.012;  // rad
 constexpr double kStridePerHeight = 0.8;
 constexpr double kComfortable = 1.2;  // m/s
 
+constexpr double kWornTilt = -0.65;  // rad, of the shoulder's mount: down to where the hands work
+
 constexpr double kLean = 0.42;   // rad, of a full reach
 constexpr double kTwist = 0.30;  // rad, the right shoulder forward
 
@@ -122,7 +124,8 @@ Pose Wearer::world_from_shoulder(double time) const {
   Eigen::Matrix3d chest_from_camera;
   chest_from_camera << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   return chest * Pose(Eigen::Quaterniond(chest_from_camera), shoulder) *
-         Pose(so3_exp(body.unrest.tail<3>()), Vector3d::Zero());
+         Pose(so3_exp(kWornTilt * Vector3d::UnitX()) * so3_exp(body.unrest.tail<3>()),
+              Vector3d::Zero());
 }
 
 }  // namespace armsreach::sim

@@ -16,7 +16,7 @@ class Wearer {
 
   // Mounts with a camera's axes: x right, y down, z forward.
   Pose world_from_head(double time) const;      // between the eyes, looking where they look
-  Pose world_from_shoulder(double time) const;  // on the right one, looking ahead of the chest
+  Pose world_from_shoulder(double time) const;  // on the right one, ahead and down
 
  private:
   struct Body {

@@ -179,7 +179,7 @@ struct WearerDescription {
 enum class Mount {
   path,      // moved by hand along the path, or still on a tripod
   head,      // of the wearer, looking where the eyes do
-  shoulder,  // of the wearer, looking ahead of the chest
+  shoulder,  // of the wearer, looking ahead of the chest and down
 };
 
 struct SensorDescription {

@@ -1,6 +1,7 @@
 #include "devices/sim/worlds.hpp"
 
 #include <algorithm>
+#include <fstream>
 #include <sstream>
 
 #include "devices/sim/world_yaml.hpp"
@@ -15,13 +16,20 @@ const std::vector<std::string>& world_names() {
   return names;
 }
 
+bool is_world_file(const std::string& name) { return name.ends_with(".yaml"); }
+
 Result<World> load_world(const std::string& name) {
+  if (is_world_file(name)) {
+    std::ifstream in(name);
+    if (!in) return Error{"no such world file", name, "give the path of a YAML file"};
+    return read_world_yaml(in, name);
+  }
   const auto& names = world_names();
   if (std::find(names.begin(), names.end(), name) == names.end()) {
     std::string list;
     for (const std::string& known : names) list += (list.empty() ? "" : ", ") + known;
     return Error{"there is no simulated world '" + name + "'", "sim:" + name,
-                 "the worlds are " + list};
+                 "the worlds are " + list + "; or give a world file of yours, FILE.yaml"};
   }
   const std::string file = "worlds/" + name + ".yaml";
   std::istringstream text{std::string(render::asset(file))};

@@ -191,14 +191,16 @@ double distance(const Mug& mug, const Vector3d& p) { return distance(around(mug)
 
 std::optional<Hit> cast_ray(const World& world, const std::vector<Pose>& world_from_thing,
                             const Vector3d& origin, const Vector3d& direction) {
-  Hit nearest{kInfinity, -1, true};
-  for (const Part& part : world.parts) {
+  Hit nearest{kInfinity, -1, -1, true};
+  for (std::size_t i = 0; i < world.parts.size(); ++i) {
+    const Part& part = world.parts[i];
     const Pose part_from_world =
         (world_from_thing[static_cast<std::size_t>(part.thing)] * part.thing_from_part).inverse();
     const Vector3d o = part_from_world * origin;
     const Vector3d d = part_from_world.rotation() * direction;
     const double t = std::visit([&](const auto& shape) { return meet(shape, o, d); }, part.shape);
-    if (t < nearest.distance) nearest = {t, part.thing, !is_turned_shape(part.shape)};
+    if (t < nearest.distance)
+      nearest = {t, part.thing, static_cast<int>(i), !is_turned_shape(part.shape)};
   }
   if (nearest.thing < 0) return std::nullopt;
   return nearest;

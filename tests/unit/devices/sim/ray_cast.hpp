@@ -14,6 +14,7 @@ namespace armsreach::sim {
 struct Hit {
   double distance = 0;  // in lengths of the ray's direction
   int thing = -1;
+  int part = -1;
   bool exact = true;  // false: within a cylinder around a turned shape, which it may yet miss
 };
 
