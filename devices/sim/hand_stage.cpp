@@ -1,8 +1,10 @@
 #include "devices/sim/hand_stage.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "devices/sim/hand_layer.hpp"
+#include "devices/sim/motion.hpp"
 
 namespace armsreach::sim {
 
@@ -10,13 +12,37 @@ HandStage::HandStage(const World& world, const Camera& camera,
                      std::function<Pose(double)> world_from_carrier)
     : things_(world.things.size()),
       light_(world.light),
+      camera_(camera),
       world_from_carrier_(std::move(world_from_carrier)),
-      painter_(world.hands),
+      painter_(world.hands, poses_of(world.things)),
       raster_(camera),
-      holding_(world, painter_.actors(), world_from_carrier_) {}
+      holding_(world, painter_.actors(), world_from_carrier_) {
+  if (world.infrared) worn_.emplace(world.hands.front(), *world.infrared, poses_of(world.things));
+}
 
 std::vector<HandTruth> HandStage::truth(double time) const {
   return painter_.truth(time, world_from_carrier_(time));
+}
+
+std::vector<TrueMarker> HandStage::markers(double time, const Pose& world_from_camera,
+                                           const cv::Mat& depth) const {
+  constexpr double kThick = 0.004;  // m, of a glove and the net that its skin is drawn with
+  std::vector<TrueMarker> markers;
+  if (!worn_) return markers;
+  const InfraredHand::Moment moment = worn_->at(time);
+  const Pose camera_from_hand = world_from_camera.inverse() * moment.world_from_hand;
+  for (const TapePiece& piece : moment.worn.tape) {
+    const Eigen::Vector3d point = camera_from_hand * piece.centre;
+    TrueMarker marker{piece.name, moment.world_from_hand * piece.centre, 0};
+    const auto pixel = project(camera_, point);
+    if (pixel && camera_.contains(*pixel)) {
+      const cv::Point at(static_cast<int>(std::lround(pixel->x())),
+                         static_cast<int>(std::lround(pixel->y())));
+      marker.visible = static_cast<double>(depth.at<float>(at)) > point.z() - kThick ? 1 : 0;
+    }
+    markers.push_back(std::move(marker));
+  }
+  return markers;
 }
 
 Raster::Images HandStage::draw(double time, const Pose& world_from_camera, ExactImages& images) {

@@ -3,12 +3,15 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "devices/sim/hand/hand_painter.hpp"
 #include "devices/sim/holding.hpp"
+#include "devices/sim/infrared/infrared_hand.hpp"
 #include "devices/sim/world.hpp"
 #include "devices/sim/world_renderer.hpp"
+#include "devices/truth.hpp"
 #include "vision/core/camera.hpp"
 
 namespace armsreach::sim {
@@ -22,16 +25,22 @@ class HandStage {
 
   std::vector<PlacedThing> held(double time) const { return holding_.at(time); }
   std::vector<HandTruth> truth(double time) const;
+  // What the first hand wears for an infra-red camera; visible: whether this depth, which it was
+  // drawn into, has the middle of it.
+  std::vector<TrueMarker> markers(double time, const Pose& world_from_camera,
+                                  const cv::Mat& depth) const;
   // Over what the camera sees at that time; returns what of the hands is seen.
   Raster::Images draw(double time, const Pose& world_from_camera, ExactImages& images);
 
  private:
   std::size_t things_;
   Light light_;
+  Camera camera_;
   std::function<Pose(double)> world_from_carrier_;
   HandPainter painter_;
   Raster raster_;
   Holding holding_;
+  std::optional<InfraredHand> worn_;
 };
 
 }  // namespace armsreach::sim

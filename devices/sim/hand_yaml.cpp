@@ -47,6 +47,7 @@ HandKey key_from(YamlMap map) {
     key.wrist_deviation = wrist[1];
   }
   if (map.find("hold")) key.hold = map.text("hold");
+  if (map.find("on")) key.on = map.text("on");
   map.refuse_others();
   return key;
 }
@@ -62,6 +63,7 @@ HandDescription hand_from(YamlMap map) {
     if (!tone) throw Complaint{"'" + map.path("skin") + "': there is no skin '" + skin + "'"};
     hand.skin = *tone;
   }
+  hand.straight = map.number("straight", 0, 1, 0);
   hand.sleeve = static_cast<bool>(map.find("sleeve"));
   if (hand.sleeve) hand.sleeve_color = map.color("sleeve");
   const YAML::Node keys = map.need("keys");
@@ -92,6 +94,11 @@ Result<std::vector<HandDescription>> read_hand_script(std::istream& in, const st
     YamlMap map(YAML::Load(in), "");
     std::vector<HandDescription> hands = hands_from(map.need("hands"), "hands");
     map.refuse_others();
+    for (const HandDescription& hand : hands) {
+      for (const HandKey& key : hand.keys) {
+        if (!key.on.empty()) throw Complaint{"'on' needs a world, whose things are known"};
+      }
+    }
     return hands;
   } catch (const Complaint& complaint) {
     return Error{complaint.what, where, remedy};

@@ -10,6 +10,7 @@ Holding::Holding(const World& world, const std::vector<HandActor>& actors,
                  std::function<Pose(double)> world_from_camera)
     : actors_(actors), world_from_camera_(std::move(world_from_camera)) {
   for (std::size_t thing = 0; thing < world.things.size(); ++thing) {
+    if (!world.things[thing].keys.empty()) continue;  // hands follow it instead
     Carried carried{thing, world.things[thing].world_from_thing, {}};
     for (std::size_t hand = 0; hand < actors_.size(); ++hand) {
       const std::vector<HandKey>& keys = actors_[hand].description().keys;

@@ -1,6 +1,7 @@
 #include "devices/sim/motion.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace armsreach::sim {
 namespace {
@@ -73,6 +74,14 @@ Pose pose_at(const Thing& thing, double time) {
   if (equal(a.world_from_thing, b.world_from_thing)) return a.world_from_thing;
   const double s = (time - a.time) / (b.time - a.time);
   return cubic(a, velocity_at(keys, i - 1), b, velocity_at(keys, i), s);
+}
+
+std::function<Pose(const std::string&, double)> poses_of(std::vector<Thing> things) {
+  return [things = std::move(things)](const std::string& name, double time) {
+    const auto one = std::find_if(things.begin(), things.end(),
+                                  [&name](const Thing& thing) { return thing.name == name; });
+    return pose_at(*one, time);
+  };
 }
 
 std::vector<Pose> poses_at(const World& world, double time) {

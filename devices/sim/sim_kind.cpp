@@ -103,9 +103,8 @@ Status apply_sensor(const SourceSpec& spec, sim::SensorDescription& sensor) {
                "give near and far in metres, near < far"};
 }
 
-// A world that has an infra-red camera is seen by that one unless another is asked for.
 Result<bool> wants_infrared(const SourceSpec& spec, const sim::World& world) {
-  const std::string sensor = option(spec, "sensor").value_or(world.infrared ? "ir" : "main");
+  const std::string sensor = option(spec, "sensor").value_or(world.shown_by);
   if (sensor == "main" || (sensor == "ir" && world.infrared)) return sensor == "ir";
   return Error{"the world '" + world.name + "' has no sensor '" + sensor + "'", text_of(spec),
                world.infrared ? "its sensors are main and ir" : "its sensor is main"};

@@ -150,7 +150,10 @@ class SimSource final : public Source {
       truth->contacts.emplace_back(world_.things[static_cast<std::size_t>(a)].name,
                                    world_.things[static_cast<std::size_t>(b)].name);
     }
-    if (hands_) add_hands(hands_->truth(script_time(path_time)), *truth);
+    if (!hands_) return truth;
+    const double script = script_time(path_time);
+    add_hands(hands_->truth(script), *truth);
+    truth->markers = hands_->markers(script, truth->world_from_camera, exact.depth);
     return truth;
   }
 

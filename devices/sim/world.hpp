@@ -210,6 +210,7 @@ struct World {
   SensorDescription sensor;
   std::vector<HandDescription> hands;
   std::optional<InfraredDescription> infrared;
+  std::string shown_by = "main";  // the sensor that is meant when none is named; or "ir"
 };
 
 }  // namespace armsreach::sim

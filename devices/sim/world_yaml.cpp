@@ -37,17 +37,26 @@ void check_carrier(const World& world) {
     throw Complaint{"'wearer' is missing, who carries the sensor"};
 }
 
-// What hands hold is there and has no motion of its own.
+Thing& thing_named(const std::string& name, std::vector<Thing>& things) {
+  const auto thing = std::find_if(things.begin(), things.end(),
+                                  [&name](const Thing& one) { return one.name == name; });
+  if (thing == things.end()) throw Complaint{"'hands': there is no thing '" + name + "'"};
+  return *thing;
+}
+
+// A thing is either carried by hands, or moves by itself with hands on it.
 void take_in_hand(const HandDescription& hand, std::vector<Thing>& things) {
   for (const HandKey& key : hand.keys) {
+    if (!key.on.empty()) thing_named(key.on, things);
     if (key.hold.empty()) continue;
-    const auto thing = std::find_if(things.begin(), things.end(),
-                                    [&key](const Thing& one) { return one.name == key.hold; });
-    if (thing == things.end())
-      throw Complaint{"'hands': there is no thing '" + key.hold + "' to hold"};
-    if (!thing->keys.empty())
-      throw Complaint{"'hands': '" + key.hold + "' moves by itself and cannot be held"};
-    thing->moves = true;
+    Thing& thing = thing_named(key.hold, things);
+    if (key.on != key.hold && !thing.keys.empty()) {
+      throw Complaint{"'hands': '" + key.hold + "' moves by itself; hold it with 'on: " + key.hold +
+                      "'"};
+    }
+    if (key.on == key.hold && thing.keys.empty())
+      throw Complaint{"'hands': '" + key.hold + "' has no motion for the hand on it to follow"};
+    thing.moves = true;
   }
 }
 
@@ -79,8 +88,14 @@ World world_from(const YAML::Node& root) {
     const bool right = !world.hands.empty() && !world.hands.front().left &&
                        world.hands.front().frame == HandFrame::world;
     if (!right) throw Complaint{"'infrared' needs a right hand in the world's frame as the first"};
+    world.hands.front().glove = world.infrared->glove.has_value();
   }
   for (const HandDescription& hand : world.hands) take_in_hand(hand, world.things);
+  if (map.find("shown_by")) {
+    world.shown_by = map.text("shown_by");
+    const bool known = world.shown_by == "main" || (world.shown_by == "ir" && world.infrared);
+    if (!known) throw Complaint{"'shown_by' names no sensor: it is main, or ir where there is one"};
+  }
   map.refuse_others();
   return world;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -17,6 +18,14 @@ constexpr double kArrived = 0.1;
 // From 0 to 1 with no velocity and no acceleration at either end.
 double eased(double s) { return s * s * s * (10 + s * (6 * s - 15)); }
 
+// About the frame's x, then y, then z.
+Eigen::Quaterniond turned(const Eigen::Vector3d& angles) {
+  const auto about = [&](int axis) {
+    return Eigen::AngleAxisd(angles[axis], Eigen::Vector3d::Unit(axis));
+  };
+  return about(2) * about(1) * about(0);
+}
+
 HandPose key_pose(const HandKey& key, const HandAnatomy& anatomy) {
   HandPose pose = key.grip > 0 ? pose_around(anatomy, key.grip) : pose_of(key.gesture, anatomy);
   pose[wrist_flexion] = key.wrist_flexion;
@@ -26,8 +35,10 @@ HandPose key_pose(const HandKey& key, const HandAnatomy& anatomy) {
 
 }  // namespace
 
-HandActor::HandActor(const HandDescription& description)
-    : description_(description), anatomy_(random_anatomy(description.seed)) {
+HandActor::HandActor(const HandDescription& description, ThingPoses world_from_thing)
+    : description_(description),
+      world_from_thing_(std::move(world_from_thing)),
+      anatomy_(random_anatomy(description.seed)) {
   for (const HandKey& key : description_.keys) poses_.push_back(key_pose(key, anatomy_));
 }
 
@@ -47,28 +58,37 @@ HandPose HandActor::pose(double time) const {
   return blend(poses_[s.from], poses_[s.to], s.fraction);
 }
 
-Pose HandActor::frame_from_hand(std::size_t index) const {
-  const HandKey& key = description_.keys[index];
-  const auto about = [](int axis, double angle) {
-    return Eigen::AngleAxisd(angle, Eigen::Vector3d::Unit(axis));
-  };
-  Eigen::Quaterniond turn(about(2, key.turn.z()) * about(1, key.turn.y()) * about(0, key.turn.x()));
-  if (description_.frame == HandFrame::camera) turn = turn * about(0, std::numbers::pi);
-  const Eigen::Vector3d palm(0, 0.75 * anatomy_.fingers[1].knuckle.y(), 0);
-  return {turn, key.at - turn * palm};
+Pose HandActor::frame_from_hand(const HandKey& key) const {
+  Eigen::Quaterniond turn = turned(key.turn);
+  if (description_.frame == HandFrame::camera)
+    turn = turn * Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX());
+  return {turn, key.at - turn * palm()};
 }
+
+Pose HandActor::thing_from_hand(const HandKey& key) const {
+  const Eigen::Quaterniond turn = turned(key.turn);
+  if (key.grip == 0) return {turn, key.at - turn * palm()};
+  const Pose handle = hand_from_handle(anatomy_, key.grip);
+  return Pose(turn, key.at) * (description_.left ? mirrored(handle) : handle).inverse();
+}
+
+Pose HandActor::world_from_key(const HandKey& key, double time,
+                               const Pose& world_from_camera) const {
+  if (!key.on.empty()) return world_from_thing_(key.on, time) * thing_from_hand(key);
+  if (description_.frame == HandFrame::camera) return world_from_camera * frame_from_hand(key);
+  return frame_from_hand(key);
+}
+
+Eigen::Vector3d HandActor::palm() const { return {0, 0.75 * anatomy_.fingers[1].knuckle.y(), 0}; }
 
 Pose HandActor::world_from_hand(double time, const Pose& world_from_camera) const {
   const Stretch s = stretch(time);
-  const Pose a = frame_from_hand(s.from);
-  const Pose b = frame_from_hand(s.to);
+  const Pose a = world_from_key(description_.keys[s.from], time, world_from_camera);
+  const Pose b = world_from_key(description_.keys[s.to], time, world_from_camera);
   // The palm's middle goes straight; it turns the short way.
-  const Eigen::Vector3d palm(0, 0.75 * anatomy_.fingers[1].knuckle.y(), 0);
   const Eigen::Quaterniond turn = a.rotation().slerp(s.fraction, b.rotation());
-  const Eigen::Vector3d at = (1 - s.fraction) * (a * palm) + s.fraction * (b * palm);
-  const Pose frame_from_hand(turn, at - turn * palm);
-  return description_.frame == HandFrame::camera ? world_from_camera * frame_from_hand
-                                                 : frame_from_hand;
+  const Eigen::Vector3d at = (1 - s.fraction) * (a * palm()) + s.fraction * (b * palm());
+  return {turn, at - turn * palm()};
 }
 
 HandTruth HandActor::truth(double time, const Pose& world_from_camera) const {

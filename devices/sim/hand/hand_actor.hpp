@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "devices/sim/hand/hand_script.hpp"
@@ -21,9 +23,13 @@ struct HandTruth {
   std::string holds;  // the thing's name, or empty
 };
 
+// Of a thing by its name, at a time.
+using ThingPoses = std::function<Pose(const std::string&, double)>;
+
 class HandActor {
  public:
-  explicit HandActor(const HandDescription& description);
+  // `world_from_thing`: for scripts with keys on things.
+  explicit HandActor(const HandDescription& description, ThingPoses world_from_thing = {});
 
   const HandDescription& description() const { return description_; }
   const HandAnatomy& anatomy() const { return anatomy_; }
@@ -42,9 +48,14 @@ class HandActor {
     double fraction = 0;  // eased
   };
   Stretch stretch(double time) const;
-  Pose frame_from_hand(std::size_t key) const;
+  Eigen::Vector3d palm() const;  // its middle, in the hand's frame
+  Pose frame_from_hand(const HandKey& key) const;
+  Pose thing_from_hand(const HandKey& key) const;
+  // Where a key puts the hand, at any time.
+  Pose world_from_key(const HandKey& key, double time, const Pose& world_from_camera) const;
 
   HandDescription description_;
+  ThingPoses world_from_thing_;
   HandAnatomy anatomy_;
   std::vector<HandPose> poses_;  // of the keys
 };

@@ -13,13 +13,27 @@ struct HandPainter::Body {
   std::vector<Eigen::Vector3f> seen;
 };
 
-HandPainter::HandPainter(const std::vector<HandDescription>& hands) {
+namespace {
+
+void put_on_glove(const HandSurface& surface, std::vector<Eigen::Vector3f>& colors) {
+  const Eigen::Vector3f knit(0.11F, 0.11F, 0.12F);  // sRGB
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    if (surface.rest().vertices[i].y() > kGloveHem) colors[i] = knit;
+  }
+}
+
+}  // namespace
+
+HandPainter::HandPainter(const std::vector<HandDescription>& hands,
+                         const ThingPoses& world_from_thing) {
   for (const HandDescription& hand : hands) {
-    const HandActor& actor = actors_.emplace_back(hand);
+    const HandActor& actor = actors_.emplace_back(hand, world_from_thing);
     HandSurfaceOptions options;
     options.sleeve = hand.sleeve;
+    options.straight = hand.straight;
     Body body{HandSurface(actor.anatomy(), options), {}, {}, {}, {}, {}};
     body.colors = colors_of(body.surface, hand.skin, hand.sleeve_color);
+    if (hand.glove) put_on_glove(body.surface, body.colors);
     bodies_.push_back(std::move(body));
   }
 }

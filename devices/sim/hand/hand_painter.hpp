@@ -15,7 +15,8 @@ namespace armsreach::sim {
 
 class HandPainter {
  public:
-  explicit HandPainter(const std::vector<HandDescription>& hands);
+  explicit HandPainter(const std::vector<HandDescription>& hands,
+                       const ThingPoses& world_from_thing = {});
   ~HandPainter();
   HandPainter(HandPainter&&) noexcept;
   HandPainter& operator=(HandPainter&&) noexcept;

@@ -27,12 +27,17 @@ struct HandKey {
   double wrist_flexion = 0;       // rad, towards the palm
   double wrist_deviation = 0;     // rad, towards the thumb
   std::string hold;               // the thing that it holds until the next key; empty: none
+  // The thing in whose frame `at` and `turn` are, wherever it goes; empty: the script's frame.
+  // Turns are as in the world's frame; of a grip they and `at` place the handle (hand/grip.hpp).
+  std::string on;
 };
 
 struct HandDescription {
   bool left = false;
   std::uint64_t seed = 1;  // of the person
   SkinTone skin = SkinTone::medium;
+  bool glove = false;   // a dark one; what it carries for an infra-red camera is in worn.hpp
+  double straight = 0;  // m that the arm goes on behind the elbow, for hands seen from afar
   bool sleeve = false;
   Eigen::Vector3d sleeve_color{0.25, 0.32, 0.45};  // sRGB
   HandFrame frame = HandFrame::camera;

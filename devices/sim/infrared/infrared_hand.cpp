@@ -3,8 +3,6 @@
 namespace armsreach::sim {
 namespace {
 
-constexpr float kGloveHem = -0.02F;  // m, along the arm
-
 HandSurfaceOptions options_for(const HandDescription& hand) {
   HandSurfaceOptions options;
   options.sleeve = hand.sleeve;
@@ -14,8 +12,9 @@ HandSurfaceOptions options_for(const HandDescription& hand) {
 
 }  // namespace
 
-InfraredHand::InfraredHand(const HandDescription& hand, const InfraredDescription& infrared)
-    : actor_(hand),
+InfraredHand::InfraredHand(const HandDescription& hand, const InfraredDescription& infrared,
+                           const ThingPoses& world_from_thing)
+    : actor_(hand, world_from_thing),
       surface_(actor_.anatomy(), options_for(hand)),
       bracelet_(infrared.bracelet),
       glove_(infrared.glove) {

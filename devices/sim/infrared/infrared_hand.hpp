@@ -21,7 +21,8 @@ class InfraredHand {
   using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
   // A right hand whose script is in the world's frame.
-  InfraredHand(const HandDescription& hand, const InfraredDescription& infrared);
+  InfraredHand(const HandDescription& hand, const InfraredDescription& infrared,
+               const ThingPoses& world_from_thing);
 
   // At one instant, in the hand's frame.
   struct Moment {

@@ -8,6 +8,7 @@
 #include "devices/sim/infrared/infrared_hand.hpp"
 #include "devices/sim/infrared/infrared_sensor.hpp"
 #include "devices/sim/infrared/infrared_view.hpp"
+#include "devices/sim/motion.hpp"
 #include "devices/sim/random.hpp"
 #include "devices/truth.hpp"
 #include "vision/core/time.hpp"
@@ -49,7 +50,7 @@ class SimInfraredSource final : public InfraredSource {
         duration_(world.path.duration),
         closed_(world.path.closed),
         info_(sensor_info(infrared_, options)),
-        hand_(world.hands.front(), infrared_),
+        hand_(world.hands.front(), infrared_, poses_of(world.things)),
         view_(world, infrared_),
         sensor_(infrared_.camera, infrared_.noise, mixed(options.seed, kForInfrared)) {}
 
