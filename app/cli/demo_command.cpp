@@ -10,7 +10,7 @@
 namespace armsreach::app {
 namespace {
 
-constexpr std::int64_t kTourFrames = 420;  // once around the bench
+constexpr std::int64_t kTourFrames = 525;  // nearly once around the bench
 
 Action insert(std::int64_t frame, double x, double y, const char* mesh) {
   Action action;
@@ -39,7 +39,7 @@ Config tour() {
 
 Status demo(const std::string& out) {
   RunOptions options;
-  options.sources = {"sim:bench"};
+  options.sources = {"sim-hand:sim:bench,script=tour"};
   if (render::display_exists()) {
     options.display = "window";
     std::printf("The tour runs in a window; close it to end.\n");

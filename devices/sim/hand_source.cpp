@@ -155,10 +155,10 @@ class HandSource final : public Source {
 
 // A script by the name of one that comes with the program, or by its file.
 Result<std::vector<HandDescription>> load_script(const std::string& script) {
-  if (script.size() < 5 || script.substr(script.size() - 5) != ".yaml") {
-    if (script != "gestures") {
+  if (!script.ends_with(".yaml")) {
+    if (script != "gestures" && script != "tour") {
       return Error{"there is no hand script '" + script + "'", "script=" + script,
-                   "give gestures, or a file that ends in .yaml"};
+                   "give gestures, tour, or a file that ends in .yaml"};
     }
     const std::string name = "hands/" + script + ".yaml";
     std::istringstream text{std::string(render::asset(name))};
@@ -181,7 +181,7 @@ std::unique_ptr<Source> make_hand_source(std::unique_ptr<Source> scene,
 SourceKind hand_source_kind(const std::vector<SourceKind>& others) {
   SourceKind kind;
   kind.name = "sim-hand";
-  kind.usage = "sim-hand:SOURCE[,script=gestures|FILE.yaml][,the source's own options]";
+  kind.usage = "sim-hand:SOURCE[,script=gestures|tour|FILE.yaml][,the source's own options]";
   kind.option_keys = {"script"};
   for (const SourceKind& other : others) {
     for (const std::string& key : other.option_keys) {
