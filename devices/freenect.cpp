@@ -192,10 +192,9 @@ void FreenectDriver::pump() {
 
 void FreenectDriver::on_depth(freenect_device* device, void* image, std::uint32_t ticks) {
   auto* self = static_cast<FreenectDriver*>(freenect_get_user(device));
-  const auto* numbers = static_cast<const std::uint16_t*>(image);
   self->listener_->on_depth(self->kind_ == DepthKind::raw
-                                ? depth_from_numbers(numbers, self->geometry_)
-                                : depth_from_millimetres(numbers),
+                                ? depth_from_numbers(image, self->geometry_)
+                                : depth_from_millimetres(image),
                             self->clock_.time(ticks));
 }
 

@@ -1,6 +1,8 @@
 #include "devices/kinect_model.hpp"
 
 #include <array>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -22,10 +24,15 @@ constexpr double kNumbersPerPixel = 4;
 constexpr double kWindowOffset = 0.375;  // px
 
 template <class Meaning>
-cv::Mat mapped(const std::uint16_t* numbers, Meaning meaning) {
+cv::Mat mapped(const void* numbers, Meaning meaning) {
   cv::Mat depth(kHeight, kWidth, CV_32F);
+  const auto* in = static_cast<const std::uint8_t*>(numbers);
   auto* out = depth.ptr<float>();
-  for (int i = 0; i < kWidth * kHeight; ++i) out[i] = meaning(numbers[i]);
+  for (int i = 0; i < kWidth * kHeight; ++i) {
+    std::uint16_t number;
+    std::memcpy(&number, in + 2 * i, sizeof number);
+    out[i] = meaning(number);
+  }
   return depth;
 }
 
@@ -74,7 +81,7 @@ float kinect_depth(int number, const KinectGeometry& geometry) {
   return z > 0 && z <= kFarthest ? static_cast<float>(z) : kUnknown;
 }
 
-cv::Mat depth_from_numbers(const std::uint16_t* numbers, const KinectGeometry& geometry) {
+cv::Mat depth_from_numbers(const void* numbers, const KinectGeometry& geometry) {
   std::array<float, kNumbers> table;
   for (int number = 0; number < kNumbers; ++number) {
     table[static_cast<std::size_t>(number)] = kinect_depth(number, geometry);
@@ -83,7 +90,7 @@ cv::Mat depth_from_numbers(const std::uint16_t* numbers, const KinectGeometry& g
                 [&](std::uint16_t number) { return number < kNumbers ? table[number] : kUnknown; });
 }
 
-cv::Mat depth_from_millimetres(const std::uint16_t* millimetres) {
+cv::Mat depth_from_millimetres(const void* millimetres) {
   return mapped(millimetres, [](std::uint16_t mm) {
     return mm == 0 ? kUnknown : 0.001F * static_cast<float>(mm);
   });

@@ -1,8 +1,6 @@
 // The Kinect v1's cameras and what its depth numbers mean.
 #pragma once
 
-#include <cstdint>
-
 #include <opencv2/core/mat.hpp>
 
 #include "vision/core/camera.hpp"
@@ -30,8 +28,9 @@ SensorInfo unregistered_kinect(const KinectGeometry& geometry);
 // Metres along z of an 11-bit depth number; NaN for unknown (2047) and beyond 10 m.
 float kinect_depth(int number, const KinectGeometry& geometry);
 
-// 640x480 images as the driver gives them to CV_32F metres, NaN unknown.
-cv::Mat depth_from_numbers(const std::uint16_t* numbers, const KinectGeometry& geometry);
-cv::Mat depth_from_millimetres(const std::uint16_t* millimetres);
+// 640x480 images of 16 bits a pixel, as the driver gives them and not always aligned, to CV_32F
+// metres, NaN unknown.
+cv::Mat depth_from_numbers(const void* numbers, const KinectGeometry& geometry);
+cv::Mat depth_from_millimetres(const void* millimetres);
 
 }  // namespace armsreach

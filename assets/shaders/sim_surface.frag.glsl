@@ -9,6 +9,7 @@ layout(location = 1) out vec2 depth_and_instance_out;
 
 void main() {
   vec3 light = light_here();
-  color_out = vec4(with_highlight(texture(pattern, texture_at).rgb * light, light), infrared);
+  color_out = vec4(with_highlight(texture(pattern, texture_at).rgb * light, light),
+                   sent_back(infrared));
   depth_and_instance_out = vec2(depth, instance);
 }

@@ -11,12 +11,12 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "devices/sim/color_sensor.hpp"
+#include "devices/sim/depth_sensor.hpp"
 #include "devices/sim/hand/hand_painter.hpp"
 #include "devices/sim/hand_layer.hpp"
 #include "devices/sim/hand_yaml.hpp"
 #include "devices/sim/picture_light.hpp"
-#include "devices/sim/color_sensor.hpp"
-#include "devices/sim/depth_sensor.hpp"
 #include "render/assets.hpp"
 
 namespace armsreach {

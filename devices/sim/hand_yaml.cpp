@@ -20,18 +20,25 @@ bool is_second(YamlMap& map, const std::string& key, const std::string& first,
   return word == second;
 }
 
+Gesture gesture_from(YamlMap& map) {
+  const std::string pose = map.text("pose");
+  const auto gesture = gesture_named(pose);
+  if (gesture) return *gesture;
+  std::string names;
+  for (int i = 0; i < kGestureCount; ++i)
+    names += (i ? ", " : "") + std::string(name(static_cast<Gesture>(i)));
+  throw Complaint{"'" + map.path("pose") + "': there is no '" + pose + "' among " + names};
+}
+
 HandKey key_from(YamlMap map) {
   HandKey key;
   key.time = map.number("t", 0, 1e6);
-  const std::string pose = map.text("pose");
-  const auto gesture = gesture_named(pose);
-  if (!gesture) {
-    std::string names;
-    for (int i = 0; i < kGestureCount; ++i)
-      names += (i ? ", " : "") + std::string(name(static_cast<Gesture>(i)));
-    throw Complaint{"'" + map.path("pose") + "': there is no '" + pose + "' among " + names};
+  if (map.find("grip")) {
+    key.grip = map.number("grip", 0.004, 0.12);
+    key.gesture = Gesture::grasp;
+  } else {
+    key.gesture = gesture_from(map);
   }
-  key.gesture = *gesture;
   key.at = map.vector<3>("at");
   if (map.find("turn_deg")) key.turn = kRadians * map.vector<3>("turn_deg");
   if (map.find("wrist_deg")) {

@@ -2,12 +2,13 @@
 //
 //   {side: right | left, seed, skin: pale | light | medium | tan | brown | dark, sleeve: "#rrggbb",
 //    frame: camera | world,
-//    keys: [{t, pose: NAME, at: [x, y, z], turn_deg: [x, y, z], wrist_deg: [flexion, deviation],
-//            hold: THING}, ...]}
+//    keys: [{t, pose: NAME | grip: DIAMETER, at: [x, y, z], turn_deg: [x, y, z],
+//            wrist_deg: [flexion, deviation], hold: THING}, ...]}
 //
-// in seconds and metres; `pose` is point, L, open, fist, grasp, pinch or a numeral from 0 to 9.
-// What places and turns mean is in hand/hand_script.hpp; seed, skin, sleeve, turn_deg, wrist_deg
-// and hold may be left out. A file of its own has the list under `hands`.
+// in seconds and metres; `pose` is point, L, open, fist, grasp, pinch or a numeral from 0 to 9, a
+// grip closes around a handle. What places and turns mean is in hand/hand_script.hpp; seed, skin,
+// sleeve, turn_deg, wrist_deg and hold may be left out. A file of its own has the list under
+// `hands`.
 #pragma once
 
 #include <istream>

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "devices/sim/hand_source.hpp"
+#include "devices/sim/infrared/infrared_source.hpp"
 #include "devices/sim/sim_source.hpp"
 #include "devices/sim/worlds.hpp"
 
@@ -102,6 +103,28 @@ Status apply_sensor(const SourceSpec& spec, sim::SensorDescription& sensor) {
                "give near and far in metres, near < far"};
 }
 
+// A world that has an infra-red camera is seen by that one unless another is asked for.
+Result<bool> wants_infrared(const SourceSpec& spec, const sim::World& world) {
+  const std::string sensor = option(spec, "sensor").value_or(world.infrared ? "ir" : "main");
+  if (sensor == "main" || (sensor == "ir" && world.infrared)) return sensor == "ir";
+  return Error{"the world '" + world.name + "' has no sensor '" + sensor + "'", text_of(spec),
+               world.infrared ? "its sensors are main and ir" : "its sensor is main"};
+}
+
+Status apply_infrared(const SourceSpec& spec, sim::InfraredDescription& infrared) {
+  for (const char* key : {"width", "height", "near", "far", "color", "jpeg"}) {
+    if (!option(spec, key)) continue;
+    return Error{"option '" + std::string(key) + "' is not for the infra-red camera", text_of(spec),
+                 "its options are seed, noise, speed, frames, loop and rate"};
+  }
+  const std::string noise = option(spec, "noise").value_or("");
+  if (noise == "none") infrared.noise = 0;
+  auto rate = number_option(spec, "rate", infrared.rate, 0.1, 1000);
+  if (!rate) return rate.error();
+  infrared.rate = *rate;
+  return ok();
+}
+
 // Where the camera is carried and through what lens it looks: worlds with a wearer can be seen from
 // the head and from the shoulder.
 Status apply_mount(const SourceSpec& spec, sim::World& world) {
@@ -173,7 +196,11 @@ Result<std::unique_ptr<Source>> open_sim(const SourceSpec& spec, const OpenOptio
   options.speed = *speed;
   if (*frames > 0) options.frames = static_cast<std::int64_t>(*frames);
   if (auto status = apply_loop(spec, *world, options); !status) return status.error();
-  return sim::make_sim_source(*world, options);
+  auto infrared = wants_infrared(spec, *world);
+  if (!infrared) return infrared.error();
+  if (!*infrared) return sim::make_sim_source(*world, options);
+  if (auto status = apply_infrared(spec, *world->infrared); !status) return status.error();
+  return std::unique_ptr<Source>(sim::make_infrared_source(*world, options));
 }
 
 std::vector<Availability> probe_worlds() {
@@ -195,13 +222,14 @@ std::vector<SourceKind> sim_source_kinds() {
   SourceKind kind;
   kind.name = "sim";
   kind.usage =
-      "sim:WORLD|FILE.yaml[,seed=N][,noise=none|kinect|FACTOR][,speed=X][,frames=N][,loop=endless]"
+      "sim:WORLD|FILE.yaml[,sensor=main|ir][,seed=N][,noise=none|kinect|FACTOR][,speed=X]"
+      "[,frames=N][,loop=endless]"
       "[,width=PX][,height=PX][,rate=HZ][,near=M][,far=M]"
       "[,mount=path|head|shoulder][,lens=DEG][,gimbal=yes|no]"
       "[,color=clean|webcam][,color_noise=LEVELS][,exposure_ms=MS][,exposure_lag=S]"
       "[,exposure_drift=SHARE][,white_balance_drift=SHARE][,jpeg=QUALITY]";
   kind.option_keys = {"seed", "noise", "speed", "frames", "loop",  "width", "height", "rate",
-                      "near", "far",   "color", "jpeg",   "mount", "lens",  "gimbal"};
+                      "near", "far",   "color", "jpeg",   "mount", "lens",  "gimbal", "sensor"};
   for (const ColorOption& one : kColorOptions) kind.option_keys.emplace_back(one.key);
   kind.place_is_path = sim::is_world_file;
   kind.open = open_sim;

@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 
 #include "devices/sim/hand/hand_script.hpp"
+#include "devices/sim/infrared/infrared_description.hpp"
 #include "vision/core/gimbal.hpp"
 #include "vision/core/pose.hpp"
 
@@ -84,9 +85,9 @@ struct Material {
   std::string name;
   Pattern pattern = Pattern::plain;
   std::vector<Color> colors;
-  double size = 1;      // m that one repeat of the pattern covers
-  bool fit = false;     // the pattern covers each face just once instead
-  double shine = 0;     // 0 dull .. 1 glazed: strength of the highlight
+  double size = 1;   // m that one repeat of the pattern covers
+  bool fit = false;  // the pattern covers each face just once instead
+  double shine = 0;  // 0 dull .. 1 glazed: strength of the highlight, and of a depth camera's glare
   double infrared = 1;  // share of the depth camera's light that comes back; 0: no depth at all
 };
 
@@ -208,6 +209,7 @@ struct World {
   std::optional<WearerDescription> wearer;
   SensorDescription sensor;
   std::vector<HandDescription> hands;
+  std::optional<InfraredDescription> infrared;
 };
 
 }  // namespace armsreach::sim

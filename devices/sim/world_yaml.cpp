@@ -6,6 +6,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "devices/sim/hand_yaml.hpp"
+#include "devices/sim/infrared/infrared_yaml.hpp"
 #include "devices/sim/world_yaml_parts.hpp"
 
 namespace armsreach::sim {
@@ -73,6 +74,12 @@ World world_from(const YAML::Node& root) {
       add_motion({motions[i], "motions[" + std::to_string(i) + "]"}, world);
   }
   if (const YAML::Node hands = map.find("hands")) world.hands = hands_from(hands, "hands");
+  if (const YAML::Node node = map.find("infrared")) {
+    world.infrared = infrared_from(node, "infrared");
+    const bool right = !world.hands.empty() && !world.hands.front().left &&
+                       world.hands.front().frame == HandFrame::world;
+    if (!right) throw Complaint{"'infrared' needs a right hand in the world's frame as the first"};
+  }
   for (const HandDescription& hand : world.hands) take_in_hand(hand, world.things);
   map.refuse_others();
   return world;

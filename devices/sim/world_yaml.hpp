@@ -14,6 +14,7 @@
 //   things: [{name, at: [x, y, z], turn_deg: [x, y, z], SHAPE, material}, ...]
 //   motions: [{thing: NAME, keys: [{t, at, turn_deg} | {t, rest: true}, ...]}, ...]
 //   hands: none, or as in hand_yaml.hpp
+//   infrared: none, or as in infrared/infrared_yaml.hpp
 //
 // in metres and seconds, with angles in degrees where the key says so; gimbal, path of the sensor,
 // offset, wearer, motions and hands may be left out. SHAPE is one of

@@ -10,8 +10,9 @@
 namespace armsreach::sim {
 
 const std::vector<std::string>& world_names() {
-  static const std::vector<std::string> names{"bench",    "near",      "kitchen-table",
-                                              "assembly", "packaging", "haptic-table"};
+  static const std::vector<std::string> names{
+      "bench",        "near",     "kitchen-table", "assembly",       "packaging",
+      "haptic-table", "ir-glove", "ir-bracelet",   "ir-bracelet-far"};
   return names;
 }
 

@@ -63,19 +63,19 @@ TEST(EndToEndFoundAgain, ACameraThatWasCoveredAndMoved) {
   ARMSREACH_RECORDING_OR_SKIP(path, "rgbd/redkitchen");
   TemporaryFolder folder;
   edit_recording(path, folder / "covered", [](int frame) {
-    if (frame >= 80 && frame < 110) return FrameEdit::cover;
-    return frame >= 110 && frame < 130 ? FrameEdit::leave_out : FrameEdit::keep;
+    if (frame >= 100 && frame < 130) return FrameEdit::cover;
+    return frame >= 130 && frame < 160 ? FrameEdit::leave_out : FrameEdit::keep;
   });
   const Trajectory truth = read_poses(path / "groundtruth.txt");
-  ASSERT_GT((truth[130].world_from_camera.translation() - truth[79].world_from_camera.translation())
+  ASSERT_GT((truth[160].world_from_camera.translation() - truth[99].world_from_camera.translation())
                 .norm(),
             0.3);
   track(folder, "tum:" + (folder / "covered").string());
   EXPECT_THAT(tracking_states(folder),
               ElementsAre("initialising", "tracking", "lost", "relocalised", "tracking"));
   const Accuracy found = accuracy(folder, path / "groundtruth.txt");
-  EXPECT_LT(found.ate, 0.02);
-  EXPECT_GT(found.coverage, 0.65);  // of 200 frames: 150 could be seen
+  EXPECT_LT(found.ate, 0.025);
+  EXPECT_GT(found.coverage, 0.65);  // of 200 frames: 140 could be seen
 }
 
 TEST(EndToEndFoundAgain, ASessionIsEnteredFromAnotherPlaceWithItsObjects) {
@@ -91,11 +91,12 @@ TEST(EndToEndFoundAgain, ASessionIsEnteredFromAnotherPlaceWithItsObjects) {
   edit_recording(path, folder / "later",
                  [](int frame) { return frame < 100 ? FrameEdit::leave_out : FrameEdit::keep; });
   track(folder, "tum:" + (folder / "later").string(), {"--session", session});
-  EXPECT_THAT(tracking_states(folder), ElementsAre("relocalised", "tracking"));
+  EXPECT_THAT(tracking_states(folder), ElementsAre("lost", "relocalised", "tracking"));
   // In the first day's world, whose origin is its first camera, not in one of its own.
   const Trajectory truth = read_poses(path / "groundtruth.txt");
   const Trajectory found = read_poses(folder / "t.txt");
-  const Pose expected = truth[0].world_from_camera.inverse() * truth[100].world_from_camera;
+  ASSERT_GT(found.size(), 90U);  // of 100 frames
+  const Pose expected = truth[0].world_from_camera.inverse() * *pose_at(truth, found.front().time);
   const Pose moved = expected.inverse() * found.front().world_from_camera;
   EXPECT_LT(moved.translation().norm(), 0.05);
   EXPECT_EQ(read_text(folder / "session" / "objects.json"), objects);

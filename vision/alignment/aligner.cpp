@@ -28,6 +28,12 @@ constexpr double kConverged = 1e-3;  // pixels: a smaller step is the last
 using Matrix7d = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 using Vector7d = Eigen::Matrix<double, kUnknowns, 1>;
 
+// Of single pixels.
+ResidualScales pixel_noise_of(const Level& level) {
+  return {std::max(level.depth_noise(), kLeastScales.depth / 10),
+          std::max(level.intensity_noise(), kLeastScales.intensity / 10)};
+}
+
 int size_of(const Level& level) { return level.stride() * level.height(); }
 
 // The smallest ratio of the two over all motions.
@@ -116,22 +122,6 @@ Weighting Aligner::intensity_weighting(const ResidualScales& scales) const {
           static_cast<float>(kTukey * scales.intensity)};
 }
 
-// Of single pixels: the Laplacian vanishes on planes, and has 20 times a pixel's variance.
-ResidualScales Aligner::pixel_noise(const Level& level) {
-  const auto noise = [&](const std::vector<float>& plane) {
-    const int step = level.stride();
-    const int stride = size_of(level) / kNoiseSamples | 1;
-    laplacians_.clear();
-    for (int at = step; at < size_of(level) - step; at += stride) {
-      laplacians_.push_back(4 * plane[at] - plane[at - 1] - plane[at + 1] - plane[at - step] -
-                            plane[at + step]);
-    }
-    return robust_scale_(laplacians_, 1).scale / std::sqrt(20.0);
-  };
-  return {std::max(noise(level.inverse_depth), kLeastScales.depth / 10),
-          std::max(noise(level.intensity), kLeastScales.intensity / 10)};
-}
-
 // Noise of variance s^2 in the pixels of both images leaves about s^2 / 2 in the mean of a central
 // difference and an interpolated cell's derivative.
 Matrix6d Aligner::feigned_information(const Residuals& residuals, const Level& reference,
@@ -166,7 +156,7 @@ Matrix6d Aligner::feigned_information(const Residuals& residuals, const Level& r
 bool Aligner::refine(const Level& camera, const Level& reference, int iterations,
                      Estimate& estimate) {
   const int size = size_of(reference);
-  const ResidualScales noise = pixel_noise(camera);
+  const ResidualScales noise = pixel_noise_of(camera);
   const double converged = kConverged / camera.camera().fx;  // rad, and m at a distance of 1 m
   for (int i = 0; i < iterations; ++i) {
     const Residuals found =
@@ -199,7 +189,7 @@ void Aligner::weigh(const Level& camera, const Level& reference, AlignmentResult
       own_depth
           ? residuals(camera, reference, reference_from_camera, -result.intensity_offset)
           : residuals(reference, camera, reference_from_camera.inverse(), result.intensity_offset);
-  result.scales = scales(found, size, pixel_noise(camera));
+  result.scales = scales(found, size, pixel_noise_of(camera));
   result.alpha = own_depth ? options_.alpha : 0;
   float* const weights = found.depth_gX;  // no longer needed
   kernels_.weigh(found, size, depth_weighting(result.scales), intensity_weighting(result.scales),

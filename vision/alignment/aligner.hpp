@@ -75,7 +75,6 @@ class Aligner {
   Weighting depth_weighting(const ResidualScales& scales) const;
   Weighting intensity_weighting(const ResidualScales& scales) const;
   bool refine(const Level& camera, const Level& reference, int iterations, Estimate& estimate);
-  ResidualScales pixel_noise(const Level& level);
   Matrix6d feigned_information(const Residuals& residuals, const Level& reference,
                                const Level& camera, const ResidualScales& noise,
                                const ResidualScales& scales) const;
@@ -85,7 +84,6 @@ class Aligner {
   AlignKernels kernels_;
   RobustScale robust_scale_;
   std::vector<float> planes_;  // of the residuals
-  std::vector<float> laplacians_;
 };
 
 }  // namespace armsreach

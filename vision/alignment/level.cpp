@@ -1,6 +1,7 @@
 #include "vision/alignment/level.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "vision/alignment/level_kernels.hpp"
@@ -11,8 +12,11 @@ namespace {
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 constexpr float kSameSurface = 1 / 1.03F;  // inverse depths of one surface, beside the nearest
 constexpr float kAnyStep = 1e9F;
-constexpr int kLeastSide = 8;  // px of a level that can still tell anything
-constexpr int kSlack = 32;     // floats that the kernels may read beyond a plane
+constexpr int kLeastSide = 8;       // px of a level that can still tell anything
+constexpr int kNoiseSamples = 256;  // pixels that stand for all where noise is assessed
+// A second difference has 6 times a pixel's variance: three deviations of it, beside the noise.
+constexpr double kBendOfNoise = 7.3;
+constexpr int kSlack = 32;  // floats that the kernels may read beyond a plane
 
 void copy_rows(const cv::Mat& image, int stride, std::vector<float>& plane) {
   std::fill(plane.begin(), plane.end(), kUnknown);
@@ -67,11 +71,28 @@ void Level::assign_half(const Level& finer) {
   differentiate();
 }
 
+// The Laplacian vanishes on planes, and has 20 times a pixel's variance.
+double Level::pixel_noise(const std::vector<float>& plane) {
+  const int row = stride();
+  const int size = row * height();
+  const int step = size / kNoiseSamples | 1;
+  laplacians_.clear();
+  for (int at = row; at < size - row; at += step) {
+    laplacians_.push_back(4 * plane[at] - plane[at - 1] - plane[at + 1] - plane[at - row] -
+                          plane[at + row]);
+  }
+  return robust_scale_(laplacians_, 1).scale / std::sqrt(20.0);
+}
+
 void Level::differentiate() {
+  depth_noise_ = pixel_noise(inverse_depth);
+  intensity_noise_ = pixel_noise(intensity);
+  const auto bend_of_noise = static_cast<float>(kBendOfNoise * depth_noise_);
   const LevelKernels kernels = level_kernels(best_isa());
   kernels.differentiate(inverse_depth.data(), width(), height(), stride(), greatest_step(),
-                        greatest_bend(), inverse_depth_x.data(), inverse_depth_y.data());
-  kernels.differentiate(intensity.data(), width(), height(), stride(), kAnyStep, kAnyStep,
+                        greatest_bend(), bend_of_noise, inverse_depth_x.data(),
+                        inverse_depth_y.data());
+  kernels.differentiate(intensity.data(), width(), height(), stride(), kAnyStep, kAnyStep, 0,
                         intensity_x.data(), intensity_y.data());
 }
 

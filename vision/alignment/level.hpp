@@ -9,6 +9,7 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include "vision/alignment/robust_scale.hpp"
 #include "vision/core/camera.hpp"
 
 namespace armsreach {
@@ -35,6 +36,10 @@ class Level {
   // Relative change of depth from one step to the next beyond which there is an edge or a crease.
   float greatest_bend() const { return static_cast<float>(kGreatestBend / camera_.fx); }
 
+  // Standard deviations of single pixels, robustly estimated.
+  double depth_noise() const { return depth_noise_; }          // 1/m, of inverse depth
+  double intensity_noise() const { return intensity_noise_; }  // of intensity in 0..1
+
   // Planes of stride() x height(), NaN where unknown. Gradients are central differences per pixel;
   // those of inverse depth are unknown beside discontinuities and bends.
   std::vector<float> inverse_depth;  // 1/m
@@ -54,10 +59,15 @@ class Level {
   static constexpr double kGreatestBend = 0.88;
 
   void resize(const Camera& camera);
+  double pixel_noise(const std::vector<float>& plane);
   void differentiate();
 
   Camera camera_;
   bool has_depth_ = false;
+  double depth_noise_ = 0;
+  double intensity_noise_ = 0;
+  RobustScale robust_scale_;
+  std::vector<float> laplacians_;
 };
 
 // The finest level first, each half the size of the one before. Keeps its memory when reassigned.

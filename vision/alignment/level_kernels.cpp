@@ -19,7 +19,7 @@ void invert(float* plane, int size) {
 }
 
 void differentiate(const float* plane, int width, int height, int stride, float greatest_step,
-                   float greatest_bend, float* along_x, float* along_y) {
+                   float greatest_bend, float bend_of_noise, float* along_x, float* along_y) {
   const int last_row = (height - 1) * stride;
   for (int at = 0; at < stride; at += kWidth) {
     lanes::store(along_x + at, unknown());
@@ -38,7 +38,8 @@ void differentiate(const float* plane, int width, int height, int stride, float 
       const Float dy = 0.5F * (above + below);
       const Float bend = lanes::max(lanes::abs(right - left), lanes::abs(below - above));
       const Float steepest = lanes::max(lanes::abs(dx), lanes::abs(dy));
-      const Float excess = lanes::max(steepest - greatest_step * here, bend - greatest_bend * here);
+      const Float straight = lanes::max(greatest_bend * here, lanes::all(bend_of_noise));
+      const Float excess = lanes::max(steepest - greatest_step * here, bend - straight);
       lanes::store(along_x + at, excess <= 0.0F ? dx + 0.0F * dy : unknown());
       lanes::store(along_y + at, excess <= 0.0F ? dy + 0.0F * dx : unknown());
     }

@@ -46,6 +46,8 @@ class PosedFlesh {
   FieldSample sample_one(std::size_t lobe, const Eigen::Vector3f& point, float* along) const;
   // To the surface of those lobes melted in their order.
   FieldSample sample(std::span<const std::uint16_t> lobes, const Eigen::Vector3f& point) const;
+  // To the surface of all.
+  FieldSample sample(const Eigen::Vector3f& point) const;
 
  private:
   struct Cone {
@@ -56,7 +58,10 @@ class PosedFlesh {
     float slope;   // radius lost per length, below 1
     float lean;    // slope over the root of 1 - slope^2
     float melt;
+    Eigen::Vector3f middle;  // of a ball around all of it
+    float reach;             // that ball's radius
   };
+  void melt_in(std::size_t lobe, const Eigen::Vector3f& point, FieldSample& sum) const;
   std::vector<Cone> cones_;
 };
 

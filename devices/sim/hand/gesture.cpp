@@ -31,7 +31,7 @@ struct Thumb {
 };
 
 constexpr Curl kStraight{2, 4, 2};
-constexpr Curl kFolded{82, 100, 60};
+constexpr Curl kFolded{84, 105, 64};
 constexpr Thumb kOut{52, 16, 22, 2, -4};           // away from the palm, as in 3 and 5
 constexpr Thumb kAcrossPalm{28, 42, 5, 42, 45};    // towards the little finger's root, as in 4
 constexpr Thumb kOverFingers{30, 42, 10, 42, 40};  // over folded fingers
@@ -140,7 +140,7 @@ Recipe recipe_of(Gesture gesture) {
       posture.curl(index, kStraight).curl(middle, kStraight);
       break;
     case Gesture::four:
-      posture.spread(7, 0, -8, -20).curl_all(kStraight).thumb(kAcrossPalm);
+      posture.spread(9, 0, -9, -22).curl_all(kStraight).thumb({13, 42, 5, 44, 45});
       break;
     case Gesture::open:
     case Gesture::five:

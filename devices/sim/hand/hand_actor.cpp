@@ -6,6 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include "devices/sim/hand/grip.hpp"
+
 namespace armsreach::sim {
 namespace {
 
@@ -16,7 +18,7 @@ constexpr double kArrived = 0.1;
 double eased(double s) { return s * s * s * (10 + s * (6 * s - 15)); }
 
 HandPose key_pose(const HandKey& key, const HandAnatomy& anatomy) {
-  HandPose pose = pose_of(key.gesture, anatomy);
+  HandPose pose = key.grip > 0 ? pose_around(anatomy, key.grip) : pose_of(key.gesture, anatomy);
   pose[wrist_flexion] = key.wrist_flexion;
   pose[wrist_deviation] = key.wrist_deviation;
   return within_limits(pose);

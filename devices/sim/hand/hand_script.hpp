@@ -21,6 +21,7 @@ enum class HandFrame { camera, world };
 struct HandKey {
   double time = 0;  // s
   Gesture gesture = Gesture::open;
+  double grip = 0;                // m: above 0, a grasp closed around a handle of this diameter
   Eigen::Vector3d at{0, 0, 0};    // the middle of the palm, m
   Eigen::Vector3d turn{0, 0, 0};  // rad about the frame's x, then y, then z
   double wrist_flexion = 0;       // rad, towards the palm

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <span>
 #include <utility>
 
@@ -13,8 +12,9 @@ namespace {
 using Eigen::Vector3f;
 using Affine = Eigen::Matrix<float, 3, 4>;
 
-// What melts reaches this far; a lobe farther from a vertex at rest leaves it alone for good.
-constexpr float kReach = 0.007F;
+// A lobe that is farther than this, and than it melts, from a vertex at rest leaves it alone for
+// good: all but some tenths of a millimetre in the deepest folds.
+constexpr float kReach = 0.0125F;
 // Two bones share a vertex when their lobes are equally near up to this.
 constexpr float kShared = 0.007F;
 constexpr float kRigidArm = 0.05F;     // m behind the wrist, from where the arm is one bone
@@ -36,13 +36,30 @@ GridPlanes planes_around(const HandAnatomy& anatomy, const HandSurfaceOptions& o
   GridPlanes planes;
   planes[0] = steps(-std::max(0.092F * wide, arm), std::max(0.112F * wide, arm), cell);
   planes[2] = steps(-std::max(0.03F * wide, arm), std::max(0.062F * wide, arm), cell);
-  float y = -static_cast<float>(options.forearm) - 2 * cell;
+  const float from = options.sleeve ? -kSleeveHem - 0.01F : -0.03F;
+  const double elbow = 1.1 * anatomy.forearm_length + 1.3 * anatomy.forearm_radius;
+  // Two of the coarsest steps stay free behind it.
+  float y = -static_cast<float>(std::min(options.forearm, elbow)) - 7 * cell;
   while (y < 0.205F * size) {
     planes[1].push_back(y);
-    const float fine = std::min(1.0F, std::max(0.0F, (-0.03F - y) / 0.06F));
-    y += cell * (1 + 2.5F * fine);
+    const float coarse = std::clamp((from - y) / 0.06F, 0.0F, 1.0F);
+    y += cell * (1 + 2.5F * coarse);
   }
   return planes;
+}
+
+bool near_nail(const HandAnatomy& anatomy, const HandSkeleton& skeleton, const Vector3f& point) {
+  for (const Finger finger :
+       {Finger::thumb, Finger::index, Finger::middle, Finger::ring, Finger::little}) {
+    const bool thumb = finger == Finger::thumb;
+    const std::size_t i = static_cast<std::size_t>(finger) - (thumb ? 0 : 1);
+    const double length = thumb ? anatomy.thumb.lengths[2] : anatomy.fingers[i].lengths[2];
+    const Pose& bone = skeleton[joint_of(finger, thumb ? 2 : 3)];
+    const Eigen::Vector3d p = bone.inverse() * Eigen::Vector3d(point.cast<double>());
+    if (p.y() > 0.42 * length && p.y() < 1.1 * length && p.z() < 0 && p.norm() < 1.2 * length)
+      return true;
+  }
+  return false;
 }
 
 Affine affine(const Pose& pose) { return pose.matrix().topRows<3>().cast<float>(); }
@@ -57,10 +74,9 @@ const Pose& pose_of(const HandSkeleton& skeleton, Bone bone) {
 struct HandSurface::Clothing {
   const PosedFlesh& flesh;
   const HandSurfaceOptions& options;
-  std::vector<std::uint16_t> all;
 
   float bare(const Vector3f& p) const {
-    return std::max(flesh.sample(all, p).distance, -p.y() - static_cast<float>(options.forearm));
+    return std::max(flesh.sample(p).distance, -p.y() - static_cast<float>(options.forearm));
   }
   // Cloth with a few soft folds around the arm.
   float cloth(const Vector3f& p, float skin) const {
@@ -70,12 +86,12 @@ struct HandSurface::Clothing {
     return std::max(0.8F * over, hem);
   }
   float distance(const Vector3f& p) const {
-    const float skin = flesh.sample(all, p).distance;
+    const float skin = flesh.sample(p).distance;
     const float arm = options.sleeve ? std::min(skin, cloth(p, skin)) : skin;
     return std::max(arm, -p.y() - static_cast<float>(options.forearm));
   }
   bool sleeve(const Vector3f& p) const {
-    return options.sleeve && flesh.sample(all, p).distance > 0.3F * kSleeveGap &&
+    return options.sleeve && flesh.sample(p).distance > 0.3F * kSleeveGap &&
            p.y() < -kSleeveHem + 0.002F;
   }
 };
@@ -100,8 +116,7 @@ HandSurface::HandSurface(const HandAnatomy& anatomy, const HandSurfaceOptions& o
   for (Bone bone = 0; bone < kBoneCount; ++bone)
     bone_from_rest_[bone] = affine(pose_of(skeleton, bone).inverse());
   const PosedFlesh flesh(lobes_, skeleton);
-  Clothing clothing{flesh, options, std::vector<std::uint16_t>(lobes_.size())};
-  std::iota(clothing.all.begin(), clothing.all.end(), std::uint16_t{0});
+  const Clothing clothing{flesh, options};
   rest_ = surface_net(planes_around(anatomy, options),
                       [&clothing](const Vector3f& p) { return clothing.distance(p); });
   settle(clothing);
@@ -120,7 +135,11 @@ void HandSurface::settle(const Clothing& clothing) {
       const Vector3f step = kStep * Vector3f::Unit(axis);
       g[axis] = clothing.distance(p + step) - clothing.distance(p - step);
     }
-    return Vector3f(g.normalized());
+    return Vector3f(g / (2 * kStep));
+  };
+  const auto onto_surface = [&](const Vector3f& p) {
+    const Vector3f g = gradient(p);
+    return Vector3f(p - clothing.distance(p) / std::max(g.squaredNorm(), 0.25F) * g);
   };
   for (int round = 0; round < 3; ++round) {
     std::vector<Vector3f> sums(vertices.size(), Vector3f::Zero());
@@ -131,14 +150,17 @@ void HandSurface::settle(const Clothing& clothing) {
         counts[triangle[i]] += 1;
       }
     }
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-      const Vector3f moved = 0.5F * (vertices[i] + sums[i] / counts[i]);
-      const Vector3f normal = gradient(moved);
-      vertices[i] = moved - clothing.distance(moved) * normal;
-    }
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+      vertices[i] = onto_surface(0.5F * (vertices[i] + sums[i] / counts[i]));
   }
+  // Nails are finer than the rest.
+  const HandSkeleton skeleton = skeleton_of(anatomy_, rest_pose());
+  rest_ = refined(rest_, [&](const Vector3f& p) { return near_nail(anatomy_, skeleton, p); });
   rest_normals_.reserve(vertices.size());
-  for (const Vector3f& vertex : vertices) rest_normals_.push_back(gradient(vertex));
+  for (Vector3f& vertex : vertices) {
+    vertex = onto_surface(vertex);
+    rest_normals_.push_back(gradient(vertex).normalized());
+  }
 }
 
 HandSurface::Binding HandSurface::bound(const Vector3f& point, const std::vector<Lobe>& lobes,
@@ -158,7 +180,8 @@ HandSurface::Binding HandSurface::bound(const Vector3f& point, const std::vector
   std::array<float, kBoneCount> shares{};
   binding.first_lobe = static_cast<std::uint32_t>(near_lobes_.size());
   for (std::size_t i = 0; i < lobes.size(); ++i) {
-    if (distances[i] < nearest + kReach) near_lobes_.push_back(static_cast<std::uint16_t>(i));
+    if (distances[i] < nearest + std::max(kReach, lobes[i].melt))
+      near_lobes_.push_back(static_cast<std::uint16_t>(i));
     const float closeness = std::max(0.0F, 1 - (distances[i] - nearest) / kShared);
     const float weight = closeness * closeness;
     shares[lobes[i].bone_a] += (1 - alongs[i]) * weight;
@@ -166,8 +189,7 @@ HandSurface::Binding HandSurface::bound(const Vector3f& point, const std::vector
   }
   binding.lobe_count = static_cast<std::uint32_t>(near_lobes_.size()) - binding.first_lobe;
   // Where the arm is cut off flat there is no flesh's surface to be drawn to.
-  if (std::abs(clothing.bare(point) - flesh.sample(clothing.all, point).distance) > 2e-4F)
-    binding.lobe_count = 0;
+  if (std::abs(clothing.bare(point) - flesh.sample(point).distance) > 2e-4F) binding.lobe_count = 0;
   float sum = 0;
   for (std::size_t k = 0; k < kBones; ++k) {
     const auto most = std::max_element(shares.begin(), shares.end());

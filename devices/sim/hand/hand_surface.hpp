@@ -15,9 +15,9 @@
 namespace armsreach::sim {
 
 struct HandSurfaceOptions {
-  double forearm = 0.25;  // m of arm behind the wrist, cut off flat
-  bool sleeve = false;    // over the arm from 7 cm behind the wrist on
-  double cell = 0.0032;   // m, about the length of a triangle's side
+  double forearm = 1;    // m of arm behind the wrist, cut off flat; the elbow is at about 0.3
+  bool sleeve = false;   // over the arm from 7 cm behind the wrist on
+  double cell = 0.0035;  // m, about the length of a triangle's side
 };
 
 // A surface in one posture, in the (right) hand's frame.

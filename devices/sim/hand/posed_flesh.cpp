@@ -20,7 +20,8 @@ PosedFlesh::PosedFlesh(const std::vector<Lobe>& lobes, const HandSkeleton& skele
     const float length = std::max((b - a).norm(), 1e-6F);
     const float slope = std::clamp((lobe.radius_a - lobe.radius_b) / length, -0.98F, 0.98F);
     cones_.push_back({a, (b - a) / length, length, lobe.radius_a, slope,
-                      slope / std::sqrt(1 - slope * slope), lobe.melt});
+                      slope / std::sqrt(1 - slope * slope), lobe.melt, 0.5F * (a + b),
+                      0.5F * length + std::max(lobe.radius_a, lobe.radius_b)});
   }
 }
 
@@ -40,20 +41,32 @@ FieldSample PosedFlesh::sample_one(std::size_t lobe, const Vector3f& point, floa
 }
 
 // Two surfaces melt as min(a, b) - (m - |a - b|)^2 / 4m where they are less than m apart.
+void PosedFlesh::melt_in(std::size_t lobe, const Vector3f& point, FieldSample& sum) const {
+  const FieldSample one = sample_one(lobe, point, nullptr);
+  const float melt = cones_[lobe].melt;
+  const float apart = one.distance - sum.distance;
+  if (apart >= melt) return;
+  if (apart <= -melt) {
+    sum = one;
+    return;
+  }
+  const float share = 0.5F * (1 - apart / melt);  // of the new one
+  sum.distance = share * one.distance + (1 - share) * sum.distance - melt * share * (1 - share);
+  sum.outwards = share * one.outwards + (1 - share) * sum.outwards;
+}
+
 FieldSample PosedFlesh::sample(std::span<const std::uint16_t> lobes, const Vector3f& point) const {
   FieldSample sum{1, Vector3f::Zero()};
-  for (const std::uint16_t lobe : lobes) {
-    const FieldSample one = sample_one(lobe, point, nullptr);
-    const float melt = cones_[lobe].melt;
-    const float apart = one.distance - sum.distance;
-    if (apart >= melt) continue;
-    if (apart <= -melt) {
-      sum = one;
-      continue;
-    }
-    const float share = 0.5F * (1 - apart / melt);  // of the new one
-    sum.distance = share * one.distance + (1 - share) * sum.distance - melt * share * (1 - share);
-    sum.outwards = share * one.outwards + (1 - share) * sum.outwards;
+  for (const std::uint16_t lobe : lobes) melt_in(lobe, point, sum);
+  return sum;
+}
+
+FieldSample PosedFlesh::sample(const Vector3f& point) const {
+  FieldSample sum{1, Vector3f::Zero()};
+  for (std::size_t i = 0; i < cones_.size(); ++i) {
+    const Cone& cone = cones_[i];
+    const float away = std::max(sum.distance + cone.melt + cone.reach, 0.0F);
+    if ((point - cone.middle).squaredNorm() < away * away) melt_in(i, point, sum);
   }
   return sum;
 }

@@ -120,10 +120,18 @@ cv::Rect Raster::touched() const {
 }
 
 const Raster::Part& Raster::part_of(std::uint32_t triangle) const {
+  if (parts_.size() == 1) return parts_.front();
   const auto after =
       std::upper_bound(parts_.begin(), parts_.end(), triangle - 1,
                        [](std::uint32_t t, const Part& part) { return t < part.first_triangle; });
   return *std::prev(after);
+}
+
+std::array<Raster::Sample, 4> Raster::samples_at(int x, int y) const {
+  const Sample* upper =
+      samples_.data() + static_cast<std::ptrdiff_t>(kSide * y) * width_ + kSide * x;
+  const Sample* lower = upper + width_;
+  return {upper[0], upper[1], lower[0], lower[1]};
 }
 
 cv::Mat Raster::ids() const {
@@ -133,14 +141,11 @@ cv::Mat Raster::ids() const {
     for (int x = place.x; x < place.x + place.width; ++x) {
       int covered = 0;
       Sample nearest;
-      for (int i = 0; i < kSide * kSide; ++i) {
-        const Sample& sample = samples_[static_cast<std::size_t>((kSide * y + i / kSide) * width_ +
-                                                                 kSide * x + i % kSide)];
+      for (const Sample& sample : samples_at(x, y)) {
         covered += sample.triangle != 0;
         if (sample.inverse_depth > nearest.inverse_depth) nearest = sample;
       }
-      if (2 * covered >= kSide * kSide)
-        ids.at<std::uint8_t>(y, x) = part_of(nearest.triangle).surface.id;
+      if (covered >= 2) ids.at<std::uint8_t>(y, x) = part_of(nearest.triangle).surface.id;
     }
   }
   return ids;
@@ -165,42 +170,37 @@ Raster::Shade Raster::shade(std::uint32_t triangle, float x, float y) const {
   return shade;
 }
 
+// Every triangle that covers samples is shaded once, at the pixel's centre.
 void Raster::resolve(int x, int y, Images& images) const {
-  constexpr int kSamples = kSide * kSide;
-  int covered = 0;
+  const std::array<Sample, 4> samples = samples_at(x, y);
   Vector3f color = Vector3f::Zero();
-  float depth = 0;
+  int covered = 0;
   float nearest = 0;
-  std::array<std::uint32_t, kSamples> seen{};
-  std::array<Shade, kSamples> shades{};
-  for (int i = 0; i < kSamples; ++i) {
-    const Sample& sample = samples_[static_cast<std::size_t>((kSide * y + i / kSide) * width_ +
-                                                             kSide * x + i % kSide)];
-    if (sample.triangle == 0) continue;
-    const std::size_t at = static_cast<std::size_t>(covered++);
-    seen[at] = sample.triangle;
-    const auto before =
-        std::find(seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(at), sample.triangle);
-    const std::size_t same = static_cast<std::size_t>(before - seen.begin());
-    shades[at] = same < at ? shades[same]
-                           : shade(sample.triangle, static_cast<float>(kSide * x) + 0.5F,
-                                   static_cast<float>(kSide * y) + 0.5F);
-    color += shades[at].color;
-    if (sample.inverse_depth > nearest) {
-      nearest = sample.inverse_depth;
-      depth = shades[at].depth;
-      images.ids.at<std::uint8_t>(y - images.place.y, x - images.place.x) =
-          part_of(sample.triangle).surface.id;
-    }
+  float depth = 0;
+  std::uint32_t nearest_triangle = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const std::uint32_t triangle = samples[i].triangle;
+    const auto same = [triangle](const Sample& sample) { return sample.triangle == triangle; };
+    const auto at = samples.begin() + static_cast<std::ptrdiff_t>(i);
+    if (triangle == 0 || std::any_of(samples.begin(), at, same)) continue;
+    const int count = static_cast<int>(std::count_if(at, samples.end(), same));
+    const Shade shaded =
+        shade(triangle, static_cast<float>(kSide * x) + 0.5F, static_cast<float>(kSide * y) + 0.5F);
+    color += static_cast<float>(count) * shaded.color;
+    covered += count;
+    if (samples[i].inverse_depth <= nearest) continue;
+    nearest = samples[i].inverse_depth;
+    nearest_triangle = triangle;
+    depth = shaded.depth;
   }
   if (covered == 0) return;
   const cv::Point at(x - images.place.x, y - images.place.y);
   color /= static_cast<float>(covered);
-  images.color.at<cv::Vec3b>(at) = {cv::saturate_cast<std::uint8_t>(color[0]),
-                                    cv::saturate_cast<std::uint8_t>(color[1]),
-                                    cv::saturate_cast<std::uint8_t>(color[2])};
-  images.coverage.at<std::uint8_t>(at) = static_cast<std::uint8_t>(covered * 255 / kSamples);
-  if (2 * covered >= kSamples) images.depth.at<float>(at) = depth;
+  for (int c = 0; c < 3; ++c)
+    images.color.at<cv::Vec3b>(at)[c] = cv::saturate_cast<std::uint8_t>(color[c]);
+  images.coverage.at<std::uint8_t>(at) = static_cast<std::uint8_t>(covered * 255 / 4);
+  images.ids.at<std::uint8_t>(at) = part_of(nearest_triangle).surface.id;
+  if (covered >= 2) images.depth.at<float>(at) = depth;
 }
 
 Raster::Images Raster::images() const {

@@ -67,6 +67,8 @@ class Raster {
   void draw_triangle(const std::array<Corner, 3>& corners, std::uint32_t number);
   const Part& part_of(std::uint32_t triangle) const;
   Shade shade(std::uint32_t triangle, float x, float y) const;
+  // The samples of a pixel, row by row.
+  std::array<Sample, 4> samples_at(int x, int y) const;
   void resolve(int x, int y, Images& images) const;
 
   Camera camera_;

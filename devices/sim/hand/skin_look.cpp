@@ -9,6 +9,11 @@ namespace {
 
 using Eigen::Vector3f;
 
+// Cosine of view and normal below which no triangle at a vertex is seen.
+constexpr float kTurnedAway = -0.5F;
+
+float square(float x) { return x * x; }
+
 float smooth_step(float low, float high, float at) {
   const float s = std::clamp((at - low) / (high - low), 0.0F, 1.0F);
   return s * s * (3 - 2 * s);
@@ -76,9 +81,13 @@ Vector3f skin_at(const SkinColors& tone, const HandAnatomy& anatomy, Bone bone, 
   skin *= 1 - folds_at(*segment, p, n);
   if (!segment->last) return skin;
   const float nail = nail_at(*segment, p, n);
-  const float white = smooth_step(0.86F, 0.93F, along);
-  skin *= 1 - 0.5F * nail * (1 - nail);  // the fold around it
-  const Vector3f plate = tone.nail + 0.35F * white * (Vector3f(0.95F, 0.92F, 0.88F) - tone.nail);
+  const float fold = 4 * nail * (1 - nail);  // around it
+  skin *= 1 - 0.16F * fold;
+  // The free edge is white, the root paler.
+  const float across = p.x() / segment->radius;
+  const float white = smooth_step(0.86F, 0.92F, along + 0.16F * across * across) +
+                      0.5F * (1 - smooth_step(0.55F, 0.66F, along));
+  const Vector3f plate = tone.nail + 0.45F * white * (Vector3f(0.97F, 0.93F, 0.9F) - tone.nail);
   return skin + nail * (plate - skin);
 }
 
@@ -201,16 +210,21 @@ std::vector<Vector3f> lit(const std::vector<Vector3f>& colors, const std::vector
   std::vector<Vector3f> seen(colors.size());
   for (std::size_t i = 0; i < colors.size(); ++i) {
     const Vector3f& normal = placed.normals[i];
+    const Vector3f view = (lighting.eye - placed.positions[i]).normalized();
+    if (normal.dot(view) < kTurnedAway) {
+      seen[i].setZero();
+      continue;
+    }
     const float open = openness[i];
     const float facing = normal.dot(towards);
     const Eigen::Array3f falls = ((facing + wrap) / (1 + wrap)).max(0.0F);
     const float height = 0.5F + 0.5F * normal.dot(lighting.up);
     const Eigen::Array3f around = (below + height * (above - below)).array();
-    const Vector3f view = (lighting.eye - placed.positions[i]).normalized();
     const float mirrored = std::max(0.0F, normal.dot((view + towards).normalized()));
-    const float sheen = 0.05F * std::pow(mirrored, 24.0F) * std::max(0.0F, facing);
+    const float mirrored_8 = square(square(square(mirrored)));
+    const float sheen = 0.05F * mirrored_8 * mirrored_8 * mirrored_8 * std::max(0.0F, facing);
     // What lies deep between fingers is lit by skin: darker and redder.
-    const Eigen::Array3f depth(std::pow(open, 0.85F), open, std::pow(open, 1.05F));
+    const Eigen::Array3f depth(open * (1.12F - 0.12F * open), open, open * (0.95F + 0.05F * open));
     const Eigen::Array3f light = falls * key.array() * std::sqrt(open) + around * depth;
     const Eigen::Array3f color = (colors[i].array().square() * light + sheen * key.array()).sqrt();
     seen[i] = 255 * Vector3f(color[2], color[1], color[0]).cwiseMin(1.0F);

@@ -20,13 +20,14 @@ std::vector<Eigen::Vector3f> colors_of(const HandSurface& surface, SkinTone tone
 std::vector<float> openness(const HandSkeleton& skeleton, const HandAnatomy& anatomy,
                             const PosedSurface& posed);
 
-// As seen: B G R in 0..255. `light` and `eye` are in the frame of the normals and positions;
-// `up` is where Light::above comes from.
+// `light` and `eye` are in the frame of the surface that is lit; `up` is where Light::above comes
+// from.
 struct Lighting {
   Light light;
   Eigen::Vector3f up{0, 0, 1};
   Eigen::Vector3f eye{0, 0, 0};
 };
+// Of every vertex as it is seen: B G R in 0..255; black where it is turned away.
 std::vector<Eigen::Vector3f> lit(const std::vector<Eigen::Vector3f>& colors,
                                  const std::vector<float>& openness, const PosedSurface& placed,
                                  const Lighting& lighting);

@@ -25,4 +25,8 @@ struct TriangleMesh {
 TriangleMesh surface_net(const GridPlanes& planes,
                          const std::function<float(const Eigen::Vector3f&)>& distance);
 
+// Halves every edge whose middle is wanted; stays closed.
+TriangleMesh refined(const TriangleMesh& mesh,
+                     const std::function<bool(const Eigen::Vector3f&)>& wanted);
+
 }  // namespace armsreach::sim

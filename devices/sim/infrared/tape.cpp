@@ -58,8 +58,8 @@ TapePiece tape_frame(const std::string& name, double cell, int cells, int inner_
       const Eigen::Vector2i inside = Eigen::Vector2i(x, y) - inner_at;
       if (inside.minCoeff() >= 0 && inside.maxCoeff() < inner_cells) continue;
       const Vector2d corner = low + cell * Vector2d(x, y);
-      piece.facets.push_back({rectangle(corner, corner + Vector2d::Constant(cell)),
-                              Vector3d::UnitZ()});
+      piece.facets.push_back(
+          {rectangle(corner, corner + Vector2d::Constant(cell)), Vector3d::UnitZ()});
     }
   }
   return piece;

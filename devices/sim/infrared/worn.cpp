@@ -23,8 +23,7 @@ Quaterniond back_turn() { return Quaterniond(0, 0, 1, 0); }
 void move(const Pose& pose, WornPart& part) {
   const Pose& p = pose;
   for (auto& position : part.positions) position = (p * position.cast<double>()).cast<float>();
-  for (auto& normal : part.normals)
-    normal = (p.rotation() * normal.cast<double>()).cast<float>();
+  for (auto& normal : part.normals) normal = (p.rotation() * normal.cast<double>()).cast<float>();
 }
 
 WornPart band(double radius, double width) {
@@ -63,7 +62,9 @@ void add(TapePiece piece, const Pose& hand_from_piece, Worn& worn) {
 Pose hand_from_finger_marker(const HandAnatomy& anatomy, const HandSkeleton& skeleton,
                              Finger finger) {
   constexpr int kPart = 2;  // the intermediate bone, the thumb's last
-  const SkinPoint skin = skin_point(anatomy, skeleton, {finger, kPart, 0.5, {0, 0, -1}});
+  // The thumb shows its side where the fingers show their backs.
+  const Vector3d side = finger == Finger::thumb ? Vector3d(-0.7, 0, -0.7) : Vector3d(0, 0, -1);
+  const SkinPoint skin = skin_point(anatomy, skeleton, {finger, kPart, 0.5, side});
   const Vector3d z = skin.outwards;
   const Vector3d bone = skeleton[joint_of(finger, kPart)].rotation() * Vector3d::UnitY();
   const Vector3d x = bone.cross(z).normalized();

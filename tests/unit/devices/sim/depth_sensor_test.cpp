@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
@@ -151,6 +152,64 @@ TEST(DepthSensor, DarkThingsHaveNoDepth) {
   const cv::Mat measured = sensor.measure(wall_at(1), returned, 0);
   EXPECT_GT(share_unknown(measured.colRange(0, 320)), 0.99);
   EXPECT_LT(share_unknown(measured.colRange(320, kWidth)), 0.001);
+}
+
+// What comes back must exceed 0.2 +- 0.03 of a white surface's: the share of pixels with depth is
+// the normal distribution of that.
+TEST(DepthSensor, TheDarkerAMaterialTheMoreHoles) {
+  const DepthSensor sensor(kinect(), kFocal, 1);
+  double before = 1.1;
+  for (const double share : {0.35, 0.26, 0.23, 0.2, 0.17, 0.14, 0.05}) {
+    const cv::Mat returned(kHeight, kWidth, CV_8U, cv::Scalar(std::round(255 * share)));
+    const double unknown = share_unknown(sensor.measure(wall_at(1.5F), returned, 0));
+    const double sigmas = (0.2 - std::round(255 * share) / 255) / 0.03;
+    const double expected = 0.5 * std::erfc(-sigmas / std::sqrt(2.0));
+    // Neighbours are alike: some 60 000 independent samples, drawn into a tile of fewer.
+    EXPECT_NEAR(unknown, expected, 0.015) << share;
+    EXPECT_LE(1 - unknown, before) << share;
+    before = 1 - unknown;
+  }
+}
+
+// Of a material that is seen at all, the noise is that of its range, not of its brightness; and
+// hidden pixels leave the others' errors as they are.
+TEST(DepthSensor, NoiseDoesNotDependOnTheMaterial) {
+  const DepthSensor sensor(kinect(), kFocal, 1);
+  for (const int returned : {100, 170, 255}) {
+    double power = 0;
+    for (int i = 0; i < 20; ++i) {
+      const float z = 1.5F * (1 + 0.0017F * static_cast<float>(i));
+      const cv::Mat measured =
+          sensor.measure(wall_at(z), cv::Mat(kHeight, kWidth, CV_8U, cv::Scalar(returned)), i);
+      ASSERT_LT(share_unknown(measured), 0.001);
+      const Statistics s = statistics((measured - z) / (z * z));
+      power += (s.deviation * s.deviation + s.mean * s.mean) / 20;
+    }
+    EXPECT_NEAR(std::sqrt(power), 1.425e-3, 0.05 * 1.425e-3) << returned;
+  }
+}
+
+// The shadow of a nearer thing is f b (1/near - 1/far) px wide whatever the depths, and what is lit
+// beside it is measured as well as anywhere.
+TEST(DepthSensor, TheShadowIsAsWideAsTheDepthsSay) {
+  const DepthSensor sensor(kinect(), kFocal, 1);
+  for (const auto& [near, far] : {std::pair{0.7, 0.9}, {0.8, 1.6}, {1.2, 3.0}, {2.0, 2.5}}) {
+    cv::Mat exact = wall_at(static_cast<float>(far));
+    exact(cv::Rect(300, 0, 100, kHeight)).setTo(near);
+    const cv::Mat measured = sensor.measure(exact, bright(), 0);
+    double width = 0;
+    for (int y = 0; y < kHeight; ++y) {
+      int x = 299;
+      while (std::isnan(measured.at<float>(y, x))) --x;
+      width += static_cast<double>(299 - x) / kHeight;
+    }
+    // Whole pixels, and one that is lost to the edge itself.
+    EXPECT_NEAR(width, kFocal * 0.075 * (1 / near - 1 / far), 1.5) << near << " " << far;
+    const cv::Mat beside = measured(cv::Rect(100, 0, 100, kHeight));
+    EXPECT_LT(share_unknown(beside), 0.001);
+    const Statistics s = statistics(beside - far);
+    EXPECT_LT(std::hypot(s.mean, s.deviation), 1.9 * 1.425e-3 * far * far) << "one step at most";
+  }
 }
 
 TEST(DepthSensor, IsTheSameForASeedAndFrameOnly) {

@@ -206,7 +206,7 @@ TEST(LevelKernels, EveryLevelGivesTheSameBits) {
     std::array<std::vector<float>, 4> found{
         std::vector<float>(size), std::vector<float>(size), std::vector<float>(half),
         std::vector<float>(level.inverse_depth.begin(), level.inverse_depth.begin() + size)};
-    kernels.differentiate(level.inverse_depth.data(), 80, 60, level.stride(), 0.01F, 0.02F,
+    kernels.differentiate(level.inverse_depth.data(), 80, 60, level.stride(), 0.01F, 0.02F, 0.005F,
                           found[0].data(), found[1].data());
     kernels.halve(level.inverse_depth.data(), level.stride(), 0.99F, 2, found[2].data(), 40, 30,
                   Level::padded(40));
