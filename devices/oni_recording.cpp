@@ -251,7 +251,7 @@ Result<std::unique_ptr<Streams>> open_streams(const std::string& file) {
 
 Result<std::unique_ptr<Recording>> open_oni_recording(const std::string& file,
                                                       const OpenOptions& options,
-                                                      bool registration) {
+                                                      std::optional<bool> registration) {
   if (!file_exists(file) || folder_exists(file)) {
     return Error{"no such file", file, "give a recording of OpenNI2, openni:FILE.oni"};
   }
@@ -261,7 +261,9 @@ Result<std::unique_ptr<Recording>> open_oni_recording(const std::string& file,
   if (size <= 0) {
     return Error{"holds no depth images", file, "record it again; a recording must be closed"};
   }
-  auto described = sensor_of_streams((*streams)->depth, (*streams)->color, registration);
+  auto described =
+      sensor_of_streams((*streams)->depth, (*streams)->color, registration.value_or(true));
+  described.sensor.registration_stated = registration.has_value();
   auto calibrated = calibrate_depth_camera(std::move(described.sensor), described.nominal, options,
                                            "openni:" + file);
   if (!calibrated) return std::move(calibrated).error();

@@ -23,7 +23,9 @@ Result<std::unique_ptr<Source>> open_openni(const SourceSpec& spec, const OpenOp
   if (is_oni_file(spec.place)) {
     auto loop = loop_option(spec);
     if (!loop) return std::move(loop).error();
-    auto recording = open_oni_recording(spec.place, options, *registration);
+    auto recording = open_oni_recording(
+        spec.place, options,
+        option(spec, "registration") ? registration.value() : std::optional<bool>());
     if (!recording) return std::move(recording).error();
     return play(std::move(*recording), *loop);
   }

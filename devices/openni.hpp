@@ -1,11 +1,12 @@
 // OpenNI2: `openni:any` (or openni:URI) is a live sensor, `openni:FILE.oni` a recording.
 //
 // Live, the driver registers depth to colour where it can; registration=off leaves both as they
-// are. A recording does not say whether it was registered: it counts as such unless
-// registration=off says otherwise.
+// are. A recording does not say whether it was registered: it counts as such, and is watched,
+// unless registration=on or off says so.
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,6 @@ Result<std::unique_ptr<Source>> open_openni_camera(const SourceSpec& spec,
                                                    const OpenOptions& options, bool registration);
 Result<std::unique_ptr<Recording>> open_oni_recording(const std::string& file,
                                                       const OpenOptions& options,
-                                                      bool registration);
+                                                      std::optional<bool> registration);
 
 }  // namespace armsreach

@@ -86,6 +86,26 @@ Result<SavedWorld> load_world(const RunOptions& options, const Config& config) {
   return world;
 }
 
+Status check_world_can_be_saved(const RunOptions& options) {
+  if (!options.map.empty()) return check_map_can_be_saved(options.map);
+  return options.session.empty() ? ok() : check_session_can_be_saved(options.session);
+}
+
+// What is done otherwise than asked for, or cannot be done at all with this sensor.
+void tell_fallbacks(const Config& config, const SavedWorld& world, const SensorInfo& sensor,
+                    EventLog& log) {
+  if (world.map && world.map->grid().resolution != config.mapping.resolution) {
+    char text[80];
+    std::snprintf(text, sizeof text, "the map's own resolution of %g m is kept",
+                  world.map->grid().resolution);
+    log.write({0, FaultEvent{"mapping", text, "make another map for another resolution"}});
+  }
+  if (sensor.depth_camera || world.map) return;
+  log.write({0, FaultEvent{"tracking", "a camera without depth is tracked only in a map",
+                           "give --map or --session that a depth camera left, and in the "
+                           "configuration tracking: {alpha: 0}"}});
+}
+
 void print_summary(const RunSummary& s) {
   std::printf(
       "%lld frames in %.1f s (%.1f Hz), %lld tracked; frame to overlay %.0f ms, p95 %.0f ms\n",
@@ -114,6 +134,7 @@ Status run(const RunOptions& options, const Config& config) {
   if (auto status = check_meshes(config, options.config); !status) return status;
   auto world = load_world(options, config);
   if (!world) return world.error();
+  if (auto status = check_world_can_be_saved(options); !status) return status;
   auto rig = open_rig({options.sources, options.rig, options.camera, options.seed});
   if (!rig) return rig.error();
   const SensorInfoPtr sensor = main_sensor(**rig);
@@ -122,6 +143,8 @@ Status run(const RunOptions& options, const Config& config) {
   if (auto status = log.open(options.events); !status) return status;
   auto presenter = Presenter::make(presenter_options(options, config, *sensor));
   if (!presenter) return presenter.error();
+
+  tell_fallbacks(config, *world, *sensor, log);
 
   WorkspaceOptions workspace;
   workspace.sensor = sensor;

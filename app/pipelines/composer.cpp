@@ -109,7 +109,7 @@ void Composer::add_video(const TrackedFrame& tracked, render::Scene* scene) {
 }
 
 void Composer::add_tracking(const TrackedFrame& tracked, render::Scene* scene) {
-  scene->pose_known = tracked.state != TrackingState::lost;
+  scene->pose_known = pose_known(tracked);
   scene->tracking_state = armsreach::name(tracked.state);
   scene->tracking_rms = tracked.rms;
   scene->tracking_inliers = tracked.inliers;

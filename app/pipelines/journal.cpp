@@ -8,9 +8,15 @@ namespace armsreach::app {
 
 std::optional<JournalEntry> entry_from_tracked(const TrackedFramePtr& tracked) {
   if (!tracked) return std::nullopt;
-  return JournalEntry{
-      tracked->frame->time, tracked->frame->arrival, tracked->world_from_camera, tracked->state,
-      tracked->rms,         tracked->inliers};
+  JournalEntry entry;
+  entry.time = tracked->frame->time;
+  entry.arrival = tracked->frame->arrival;
+  entry.world_from_camera = tracked->world_from_camera;
+  entry.state = tracked->state;
+  entry.pose_known = pose_known(*tracked);
+  entry.rms = tracked->rms;
+  entry.inliers = tracked->inliers;
+  return entry;
 }
 
 double Journal::rate() const {
@@ -29,7 +35,7 @@ std::string Journal::progress() const {
 void Journal::record(const JournalEntry& entry) {
   if (frames_++ == 0) first_arrival_ = entry.arrival;
   last_arrival_ = entry.arrival;
-  if (entry.state != TrackingState::lost) {
+  if (entry.pose_known) {
     ++tracked_frames_;
     if (file_.is_open()) write_tum_pose(file_.stream(), {entry.time, entry.world_from_camera});
   }

@@ -72,6 +72,7 @@ class MappingStage final : public Stage<MapInput, MapStatePtr> {
 
   const MapStatePtr& state() const { return state_; }  // the last one published; null before
   const mapping::VoxelMap& map() const { return mapper_.map(); }
+  bool grew() const { return mapper_.insertions() > 0; }
 
  private:
   mapping::Mapper mapper_;

@@ -295,10 +295,14 @@ Result<RunSummary> Workspace::run() {
 }
 
 Status Workspace::save_world() {
-  if (!mapping_stage_) return ok();
+  if (!mapping_stage_ || (options_.map.empty() && options_.session.empty())) return ok();
+  if (!mapping_stage_->grew()) {  // what was loaded, if anything, stays as it is
+    log_.write({log_.now(), FaultEvent{"mapping", "nothing was added to the map: it is not saved",
+                                       "a camera with depth that is tracked maps what it sees"}});
+    return ok();
+  }
   const mapping::VoxelGrid& grid = mapping_stage_->map().grid();
   if (!options_.map.empty()) return save_map(options_.map, grid);
-  if (options_.session.empty()) return ok();
   const WorldViewPtr view = mapping_stage_->state() ? mapping_stage_->state()->view : nullptr;
   std::vector<SavedObject> objects;
   for (const PlacedObject& object : composer_->placement().objects()) {

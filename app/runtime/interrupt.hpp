@@ -1,5 +1,6 @@
-// Ctrl-C and termination as an orderly end: the handler runs on a thread of its own, so it may lock
-// and wake as it likes; a second signal ends the program at once. One guard at a time.
+// Ctrl-C, termination and a closed terminal as an orderly end: the handler runs on a thread of its
+// own, so it may lock and wake as it likes; a second signal ends the program at once. One guard at
+// a time.
 #pragma once
 
 #include <csignal>
@@ -18,6 +19,7 @@ class InterruptGuard {
  private:
   struct sigaction old_interrupt_ {};
   struct sigaction old_terminate_ {};
+  struct sigaction old_hang_up_ {};
   std::jthread thread_;
 };
 

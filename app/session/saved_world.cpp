@@ -54,7 +54,9 @@ SavedObject object_from_json(const json& from) {
 Result<std::vector<SavedObject>> read_objects(std::istream& in, const std::string& where) {
   std::vector<SavedObject> objects;
   try {
-    for (const json& object : json::parse(in)) objects.push_back(object_from_json(object));
+    const json list = json::parse(in);
+    if (!list.is_array()) throw std::runtime_error("it is no list");
+    for (const json& object : list) objects.push_back(object_from_json(object));
   } catch (const std::exception& e) {
     return Error{"not a list of objects: " + std::string(e.what()), where,
                  "remove the file to enter the session without its objects"};
@@ -62,10 +64,12 @@ Result<std::vector<SavedObject>> read_objects(std::istream& in, const std::strin
   return objects;
 }
 
+fs::path partial_of(const fs::path& path) { return path.string() + ".part"; }
+
 // Written beside and then moved into place: whatever happens, either the old or the new is there.
 template <class Write>
 Status replace_file(const fs::path& path, Write write) {
-  const fs::path partial = path.string() + ".part";
+  const fs::path partial = partial_of(path);
   if (auto status = write_file(partial.string(), write); !status) return status;
   std::error_code error;
   fs::rename(partial, path, error);
@@ -85,7 +89,7 @@ Result<SavedWorld> load_map(const std::string& path, const mapping::VoxelMapOpti
       });
   if (!map) return map.error();
   SavedWorld world;
-  world.map = *std::move(map);
+  if (*map && (*map)->grid().blocks.block_count() > 0) world.map = *std::move(map);
   return world;
 }
 
@@ -100,7 +104,12 @@ Result<SavedWorld> load_session(const std::string& folder,
     return Error{"is a file", folder, "give --session a folder"};
   }
   auto world = load_map((root / "map.ot").string(), options);
-  if (!world || !world->map) return world;  // key frames and objects mean nothing without a map
+  if (!world) return world;
+  if (!world->map) {
+    if (!fs::exists(root / "key_frames.bin") && !fs::exists(root / "objects.json")) return world;
+    return Error{"the session has lost its map.ot", folder,
+                 "put the map back, or give --session another folder"};
+  }
   auto key_frames = read_if_there<relocalisation::KeyFrames>(root / "key_frames.bin",
                                                              relocalisation::read_key_frames);
   if (!key_frames) return key_frames.error();
@@ -129,6 +138,23 @@ Status save_session(const std::string& folder, const mapping::VoxelGrid& grid,
     if (!status) return status;
   }
   return ok();
+}
+
+Status check_map_can_be_saved(const std::string& path) {
+  const fs::path partial = partial_of(path);
+  if (auto status = write_file(partial.string(), [](std::ostream&) {}); !status) {
+    return Error{"cannot be written", path, "check that its folder exists and is yours"};
+  }
+  std::error_code ignored;
+  fs::remove(partial, ignored);
+  return ok();
+}
+
+Status check_session_can_be_saved(const std::string& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) return Error{error.message(), folder, "give --session a folder that is yours"};
+  return check_map_can_be_saved((fs::path(folder) / "map.ot").string());
 }
 
 }  // namespace armsreach::app

@@ -26,15 +26,21 @@ struct SavedWorld {
   std::vector<SavedObject> objects;
 };
 
-// A map alone, OctoMap's .ot. A file that does not exist yet is an empty world, not an error.
+// A map alone, OctoMap's .ot. A file that does not exist yet, or has nothing in it, is an empty
+// world, not an error.
 // `options` are for a map to go on with; the file's resolution replaces theirs.
 Result<SavedWorld> load_map(const std::string& path, const mapping::VoxelMapOptions& options);
 Status save_map(const std::string& path, const mapping::VoxelGrid& grid);
 
-// A session: a folder with map.ot, key_frames.bin and objects.json, each of which may be missing.
+// A session: a folder with map.ot, key_frames.bin and objects.json. Without a map the other two
+// mean nothing, so they are refused rather than lost.
 Result<SavedWorld> load_session(const std::string& folder, const mapping::VoxelMapOptions& options);
 Status save_session(const std::string& folder, const mapping::VoxelGrid& grid,
                     const relocalisation::KeyFrames& key_frames,
                     const std::vector<SavedObject>& objects);
+
+// Whether those could be written, before a run whose map would otherwise be lost.
+Status check_map_can_be_saved(const std::string& path);
+Status check_session_can_be_saved(const std::string& folder);
 
 }  // namespace armsreach::app

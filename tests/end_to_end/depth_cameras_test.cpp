@@ -32,7 +32,7 @@ TEST(EndToEndDepthCameras, SourcesListsThemPresentOrNot) {
   }
 }
 
-TEST(EndToEndDepthCameras, AKinectIsTracked) {
+TEST(EndToEndDepthCameras, AKinectsSessionIsPlayedToItsEnd) {
   const TemporaryFolder folder;
   write_kinect_session(folder / "session", 60);
   setenv("FAKENECT_PATH", (folder / "session").c_str(), 1);

@@ -1,5 +1,6 @@
 // A camera that is lost and found again, and worlds that are entered another day, through the
 // command line.
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -22,9 +23,12 @@ using ::testing::ElementsAre;
 void track(const TemporaryFolder& folder, const std::string& source,
            const std::vector<std::string>& more = {}) {
   std::vector<std::string> arguments = {
-      "run",  "--source",     source,           "--pace",   "every-frame",     "--display",
-      "none", "--trajectory", folder / "t.txt", "--events", folder / "e.jsonl"};
+      "run",          "--source",       source,     "--display",       "none",
+      "--trajectory", folder / "t.txt", "--events", folder / "e.jsonl"};
   arguments.insert(arguments.end(), more.begin(), more.end());
+  if (std::find(more.begin(), more.end(), "--pace") == more.end()) {
+    arguments.insert(arguments.end(), {"--pace", "every-frame"});
+  }
   const ProgramResult run = run_armsreach(arguments);
   ASSERT_EQ(run.exit_code, 0) << run.output;
 }
@@ -118,6 +122,46 @@ TEST(EndToEndFoundAgain, AColourCameraIsTrackedInASavedMap) {
   EXPECT_EQ(pictures.coverage, 1.0);
   EXPECT_LT(pictures.ate, 0.02);
   EXPECT_EQ(read_text(folder / "m.ot"), map) << "a camera without depth maps nothing";
+}
+
+// As depth cameras begin: a projector warms up, an exposure settles.
+TEST(EndToEndFoundAgain, ACameraThatIsBlindAtFirstBeginsWhereItSees) {
+  ARMSREACH_RECORDING_OR_SKIP(path, "rgbd/livingroom");
+  for (const char* pace : {"every-frame", "live"}) {
+    for (const int blind : {1, 10}) {
+      TemporaryFolder folder;
+      edit_recording(path, folder / "blind", [&](int frame) {
+        return frame < blind ? FrameEdit::blind_depth : FrameEdit::keep;
+      });
+      track(folder, "tum:" + (folder / "blind").string(), {"--pace", pace, "--frames", "40"});
+      EXPECT_THAT(tracking_states(folder), ElementsAre("initialising", "tracking"))
+          << pace << blind;
+      const Trajectory found = read_poses(folder / "t.txt");
+      EXPECT_LE(found.size(), 40U - static_cast<std::size_t>(blind)) << "no pose while blind";
+      EXPECT_GE(found.size(), 30U - static_cast<std::size_t>(blind));  // live may skip some
+    }
+  }
+}
+
+TEST(EndToEndFoundAgain, WhatWasNotAddedToIsNotSaved) {
+  ARMSREACH_RECORDING_OR_SKIP(path, "rgbd/livingroom");
+  TemporaryFolder folder;
+  track(folder, "images:" + (path / "rgb").string(), {"--frames", "5", "--map", folder / "m.ot"});
+  EXPECT_FALSE(std::filesystem::exists(folder / "m.ot"));
+  EXPECT_THAT(read_text(folder / "e.jsonl"), ::testing::HasSubstr("only in a map"));
+  EXPECT_THAT(read_text(folder / "e.jsonl"), ::testing::HasSubstr("it is not saved"));
+  EXPECT_EQ(read_text(folder / "t.txt"), "");
+}
+
+TEST(EndToEndFoundAgain, AMapThatCannotBeSavedIsToldBeforeTheRun) {
+  TemporaryFolder folder;
+  const std::string map = folder / "none" / "m.ot";
+  const ProgramResult run =
+      run_armsreach({"run", "--source", "sim:bench", "--display", "none", "--frames", "3", "--map",
+                     map, "--stats", folder / "s.json"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.output, ::testing::HasSubstr(map + ": cannot be written"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "s.json")) << "it ran";
 }
 
 TEST(EndToEndFoundAgain, AMapOfAnotherPlaceIsNotBelieved) {

@@ -19,15 +19,16 @@ json json_from_file(const std::filesystem::path& path) { return json::parse(read
 
 // Runs a source without drawing and evaluates its trajectory against `truth`.
 json tracked(const TemporaryFolder& folder, const std::string& source, const std::string& truth,
-             const std::string& config) {
+             const std::string& config, const std::string& recording = "") {
   write_text(folder / "config.yaml", config);
   const ProgramResult run = run_armsreach(
       {"run", "--source", source, "--pace", "every-frame", "--display", "none", "--config",
        folder / "config.yaml", "--trajectory", folder / "t.txt", "--stats", folder / "s.json"});
   EXPECT_EQ(run.exit_code, 0) << run.output;
-  const ProgramResult evaluated =
-      run_armsreach({"evaluate", "trajectory", "--estimate", folder / "t.txt", "--truth", truth,
-                     "--json", folder / "e.json"});
+  std::vector<std::string> evaluate = {"evaluate", "trajectory", "--estimate", folder / "t.txt",
+                                       "--truth",  truth,        "--json",     folder / "e.json"};
+  if (!recording.empty()) evaluate.insert(evaluate.end(), {"--recording", recording});
+  const ProgramResult evaluated = run_armsreach(evaluate);
   EXPECT_EQ(evaluated.exit_code, 0) << evaluated.output;
   return json_from_file(folder / "e.json");
 }
@@ -138,9 +139,10 @@ TEST(EndToEndRun, AnInterruptEndsInOrder) {
 TEST(EndToEndRun, RedkitchenIsTrackedInEveryFrame) {
   ARMSREACH_RECORDING_OR_SKIP(path, "rgbd/redkitchen");
   TemporaryFolder folder;
-  const json errors = tracked(folder, "tum:" + path.string(), path / "groundtruth.txt", "");
+  const json errors = tracked(folder, "tum:" + path.string(), path / "groundtruth.txt", "", path);
   EXPECT_EQ(errors["coverage"], 1.0);
   EXPECT_LE(errors["ate_rmse"], 0.0199);
+  EXPECT_LE(errors["reprojected_depth"], 2.9e-3);  // 1/m
 }
 
 TEST(EndToEndRun, LivingroomNeedsItsMap) {

@@ -20,12 +20,16 @@ soak() {  # soak SOURCE
   done
   wait "$pid" || { cat "$folder/log"; failed=1; return; }
   # The first third fills the map and the allocator's arenas; from there on memory must be flat.
+  if [ ${#samples[@]} -lt 6 ]; then echo "soak: too short to judge"; failed=1; return; fi
   local warm=${samples[$((${#samples[@]} / 3))]} last=${samples[-2]}
+  local rate
+  rate=$(awk -F'[:,]' '/"rate"/ {printf "%.0f", $2}' "$folder/stats.json")
   local lost
   lost=$(grep -c '"state":"lost"' "$folder/events.jsonl" || true)
   cat "$folder/log"
   echo "soak: $((warm / 1024)) MB after a third, $((last / 1024)) MB at the end, lost $lost times"
   if [ $((last * 100)) -gt $((warm * 105)) ]; then echo "soak: FAILED: memory grows"; failed=1; fi
+  if [ "$rate" -lt 29 ]; then echo "soak: FAILED: $rate frames a second, on a machine with nothing else to do 30"; failed=1; fi
   if [ "$lost" -ne 0 ]; then echo "soak: FAILED: the camera was lost"; failed=1; fi
 }
 

@@ -115,7 +115,7 @@ void Tracker::take(const ReferenceViewPtr& view, ReferenceViewPtr& taken,
                    Reference& reference) const {
   if (view == taken) return;
   taken = view;
-  if (!view) {
+  if (!view || !sees_anything(view->depth)) {
     reference = {};
     return;
   }

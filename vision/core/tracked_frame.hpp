@@ -44,4 +44,10 @@ inline bool trusted(const TrackedFrame& tracked) {
   return tracked.state == TrackingState::initialising || tracked.state == TrackingState::tracking;
 }
 
+// Whether the pose says where the camera is: not while it is lost, nor before it has seen anything.
+inline bool pose_known(const TrackedFrame& tracked) {
+  if (tracked.state == TrackingState::initialising) return !tracked.depth.empty();
+  return tracked.state != TrackingState::lost;
+}
+
 }  // namespace armsreach

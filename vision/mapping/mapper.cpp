@@ -21,7 +21,9 @@ MapUpdate Mapper::process(const TrackedFrame& tracked) {
   }
   // Where a relocaliser put the camera at once: alignment against this view confirms it or not.
   const bool relocalised = tracked.state == TrackingState::relocalised;
-  if (relocalised || (tracked.state != TrackingState::lost && due(options_.cast_every))) {
+  const bool wanted =
+      relocalised || (tracked.state != TrackingState::lost && due(options_.cast_every));
+  if (wanted && map_.grid().blocks.block_count() > 0) {
     update.reference = reference(tracked);
   }
   if (due(options_.view_every)) update.view = take_view();

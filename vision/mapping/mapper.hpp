@@ -57,6 +57,7 @@ class Mapper {
                              std::int64_t frame) const;
 
   const VoxelMap& map() const { return map_; }
+  std::uint64_t insertions() const { return revision_; }  // since it was made
 
  private:
   ReferenceViewPtr cast_view(const Camera& camera, const Pose& world_from_camera,

@@ -26,6 +26,11 @@ Error broken(const std::string& where, const std::string& what) {
   return {what, where, "save the map again, or give a ColorOcTree file written by OctoMap"};
 }
 
+std::string too_large(std::size_t most) {
+  return "the map has more than " + std::to_string(most) +
+         " cubes of 8x8x8 voxels; prune it, or make it coarser";
+}
+
 Result<Header> read_header(std::istream& in, const std::string& where) {
   std::string line;
   if (!std::getline(in, line) || line.rfind(octree::kFirstLine, 0) != 0) {
@@ -111,7 +116,7 @@ class TreeReader {
         for (int x = corner[0]; x < corner[0] + edge; x += step) {
           Block& block = blocks[block_of_voxel(x - octree::kKeyOffset, y - octree::kKeyOffset,
                                                z - octree::kKeyOffset)];
-          if (blocks.size() > max_blocks_) return fail("the map is larger than max_blocks allows");
+          if (blocks.size() > max_blocks_) return fail(too_large(max_blocks_));
           fill(block, {x, y, z}, step, value, intensity);
         }
       }
@@ -148,7 +153,7 @@ std::optional<std::string> read_distances(std::istream& in, std::size_t max_bloc
                                           Blocks& blocks) {
   std::size_t count = 0;
   if (!(in >> count) || in.get() != '\n') return "the count of signed distances is missing";
-  if (count > max_blocks) return "the map is larger than max_blocks allows";
+  if (count > max_blocks) return too_large(max_blocks);
   for (std::size_t i = 0; i < count; ++i) {
     const auto x = read_value<std::int16_t>(in);
     const auto y = read_value<std::int16_t>(in);

@@ -19,6 +19,7 @@ TrackedFramePtr tracked(std::int64_t index, TrackingState state) {
   auto out = std::make_shared<TrackedFrame>();
   out->frame = frame;
   out->state = state;
+  out->depth = cv::Mat(1, 1, CV_32F, cv::Scalar(1));
   out->world_from_camera =
       Pose(Eigen::Quaterniond::Identity(), {0.1 * static_cast<double>(index), 0, 0});
   return out;
@@ -56,6 +57,16 @@ TEST(Journal, AnEventWhereTheStateChangesAndOnlyThere) {
   std::vector<TrackingState> told;
   for (const Event& event : log.recent()) told.push_back(std::get<TrackingEvent>(event.body).state);
   EXPECT_EQ(told, (std::vector<TrackingState>{initialising, tracking, lost, tracking}));
+}
+
+TEST(Journal, BeforeAnythingWasSeenNoPoseIsKnown) {
+  EventLog log;
+  Journal journal(log);
+  TrackedFrame blind = *tracked(0, TrackingState::initialising);
+  blind.depth = cv::Mat();
+  journal.record(*entry_from_tracked(std::make_shared<const TrackedFrame>(blind)));
+  EXPECT_EQ(journal.frames(), 1);
+  EXPECT_EQ(journal.tracked_frames(), 0);
 }
 
 TEST(Journal, AFrameOnWhichTheTrackerFailedIsNoEntry) { EXPECT_FALSE(entry_from_tracked(nullptr)); }

@@ -84,7 +84,7 @@ TrackerOptions key_frames() {
   return options;
 }
 
-// The gates below are the project's targets; figures measured when this was written stand beside.
+// The bounds are what is required; beside them stands what is usual.
 
 TEST(Recordings, LivingroomAgainstAMap) {
   ARMSREACH_RECORDING_OR_SKIP(path, "rgbd/livingroom");
