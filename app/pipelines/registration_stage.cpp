@@ -11,20 +11,33 @@
 namespace armsreach::app {
 namespace {
 
+// One standard deviation at each depth, and where there was anything to judge by.
+std::string reliability(const ColorSearchResult& search) {
+  std::string text = "; a standard deviation is";
+  char item[80];
+  for (std::size_t i = 0; i < kUncertaintyDepths.size(); ++i) {
+    std::snprintf(item, sizeof item, "%s %.1f px at %.1f m", i == 0 ? "" : ",",
+                  search.uncertainty_at[i], kUncertaintyDepths[i]);
+    text += item;
+  }
+  std::snprintf(item, sizeof item, ", of contours at %.1f to %.1f m", search.nearest,
+                search.farthest);
+  return text + item;
+}
+
 FaultEvent estimated(const RegistrationVerdict& verdict, const SensorInfo& sensor) {
   const Pose& pose = sensor.color_from_depth;
   const Camera& camera = *sensor.color_camera;
   char message[240];
   std::snprintf(message, sizeof message,
                 "colour is not registered with depth (%.0f px off); its camera as estimated from "
-                "%d frames: f %.1f px, centre %.1f, %.1f, %.1f mm beside, roll %.2f deg, "
-                "to about %.1f px",
+                "%d frames: f %.1f px, centre %.1f, %.1f, %.1f mm beside, roll %.2f deg",
                 verdict.search.displacement, verdict.frames, camera.fx, camera.cx, camera.cy,
                 1e3 * std::abs(pose.translation().x()),
-                so3_log(pose.rotation()).z() * 180 / std::numbers::pi, verdict.search.uncertainty);
+                so3_log(pose.rotation()).z() * 180 / std::numbers::pi);
   std::ostringstream file;
   write_camera_yaml(file, {camera, pose});
-  return {"registration", message,
+  return {"registration", message + reliability(verdict.search),
           "write this as the recording's camera_color.yaml:\n" + file.str()};
 }
 
