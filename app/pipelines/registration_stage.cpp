@@ -11,21 +11,44 @@
 namespace armsreach::app {
 namespace {
 
+constexpr double kWellKnown = 2;  // px
+
+// One standard deviation at each depth, and where there was anything to judge by.
+std::string reliability(const ColorSearchResult& search) {
+  std::string text = "; good to";
+  char item[80];
+  for (std::size_t i = 0; i < kUncertaintyDepths.size(); ++i) {
+    std::snprintf(item, sizeof item, "%s %.1f px at %g m", i == 0 ? "" : ",",
+                  search.uncertainty_at[i], kUncertaintyDepths[i]);
+    text += item;
+  }
+  std::snprintf(item, sizeof item, " (one sigma; contours were seen at %.1f to %.1f m)",
+                search.nearest, search.farthest);
+  return text + item;
+}
+
+// Only near things tell the baseline.
+bool wants_near_things(const ColorSearchResult& search) {
+  return search.uncertainty_at.front() > kWellKnown && search.nearest > kUncertaintyDepths.front();
+}
+
 FaultEvent estimated(const RegistrationVerdict& verdict, const SensorInfo& sensor) {
   const Pose& pose = sensor.color_from_depth;
   const Camera& camera = *sensor.color_camera;
   char message[240];
   std::snprintf(message, sizeof message,
                 "colour is not registered with depth (%.0f px off); its camera as estimated from "
-                "%d frames: f %.1f px, centre %.1f, %.1f, %.1f mm beside, roll %.2f deg, "
-                "to about %.1f px",
+                "%d frames: f %.1f px, centre %.1f, %.1f, %.1f mm beside, roll %.2f deg",
                 verdict.search.displacement, verdict.frames, camera.fx, camera.cx, camera.cy,
                 1e3 * std::abs(pose.translation().x()),
-                so3_log(pose.rotation()).z() * 180 / std::numbers::pi, verdict.search.uncertainty);
-  std::ostringstream file;
-  write_camera_yaml(file, {camera, pose});
-  return {"registration", message,
-          "write this as the recording's camera_color.yaml:\n" + file.str()};
+                so3_log(pose.rotation()).z() * 180 / std::numbers::pi);
+  std::ostringstream remedy;
+  if (wants_near_things(verdict.search)) {
+    remedy << "to know it better up close, begin with things at arm's length before others; else ";
+  }
+  remedy << "write this as the recording's camera_color.yaml:\n";
+  write_camera_yaml(remedy, {camera, pose});
+  return {"registration", message + reliability(verdict.search), remedy.str()};
 }
 
 FaultEvent cannot_tell() {

@@ -82,8 +82,10 @@ RegistrationVerdict ColorCameraEstimator::attempt() const {
   for (const ContourView& view : views_) contours += view.contours.size();
   if (contours < kFewestContours) return verdict;
   verdict.search = search_color_camera(views_, assumed_);
-  verdict.color = color_camera(verdict.search.best, assumed_);
   verdict.registration = judged(verdict.search, assumed_);
+  if (verdict.registration != Registration::registered) {
+    verdict.color = color_camera(verdict.search.best, assumed_);
+  }
   return verdict;
 }
 

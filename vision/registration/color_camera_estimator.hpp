@@ -3,8 +3,11 @@
 //
 // A coarse search over focal length, centre and baseline through a wide Gaussian, then a simplex,
 // with roll, through narrower ones. Coinciding cameras (registered images) are a guess like any
-// other, kept when they explain nearly as much as the best. Whether an answer can be relied on is
-// judged by a jackknife over parts of the image, and by how well the best guess elsewhere does.
+// other, kept when they explain nearly as much as the best. Contours over a narrow range of depths
+// tell the baseline only to within a centimetre, and too short, so the baselines that such sensors
+// have (25 mm, give or take 5) weigh about as much. Whether an answer can be relied on is judged by
+// a jackknife over parts of the image, by what it owes to those usual figures, and by how well the
+// best guess elsewhere does.
 #pragma once
 
 #include <optional>
@@ -23,7 +26,7 @@ enum class Registration {
 
 struct RegistrationVerdict {
   Registration registration = Registration::cannot_tell;
-  ColorCamera color;         // the best guess, whatever the verdict
+  ColorCamera color;         // the best guess, whatever the verdict; if registered, that they are
   ColorSearchResult search;  // that it came from
   int frames = 0;            // given so far
 };

@@ -9,6 +9,9 @@ constexpr double kLogFocalUnit = 0.02;   // at a third of the width from the cen
 constexpr double kBaselineUnit = 0.008;  // m; at a depth of 1 m
 constexpr double kRollUnit = 0.0125;     // rad; half the width from the centre
 
+// m. PrimeSense's sensors (Kinect v1, Xtion, Carmine) have 25 mm, others 15 to 32 mm.
+constexpr double kUsualBaseline = 0.025;
+
 }  // namespace
 
 ColorCamera color_camera(const ColorHypothesis& h, const Camera& assumed) {
@@ -22,11 +25,25 @@ ColorCamera color_camera(const ColorHypothesis& h, const Camera& assumed) {
   return out;
 }
 
+const ColorHypothesis& usual_deviation() {
+  // 12 % of focal length, 1/100 of the width, 5 mm, 0.01 rad.
+  static const ColorHypothesis usual{6, 1.5, 1.5, 0.005 / kBaselineUnit, 0.8};
+  return usual;
+}
+
 double improbability(const ColorHypothesis& h) {
-  // 12 % of focal length, 1/100 of the width (a lens is centred better than it is placed), 3 cm,
-  // 0.01 rad.
-  const ColorHypothesis usual{6, 1.5, 1.5, 4, 0.8};
-  return h.cwiseQuotient(usual).squaredNorm();
+  ColorHypothesis from_usual = h;
+  from_usual[3] = std::abs(h[3]) - kUsualBaseline / kBaselineUnit;
+  return from_usual.cwiseQuotient(usual_deviation()).squaredNorm();
+}
+
+ColorHypothesis with_baseline(const ColorHypothesis& h, double baseline, const Camera& assumed,
+                              double z) {
+  const double focal_length = color_camera(h, assumed).camera.fx;
+  ColorHypothesis other = h;
+  other[1] += kBaselineUnit * (h[3] - baseline) * focal_length / z / hypothesis_unit(assumed);
+  other[3] = baseline;
+  return other;
 }
 
 double displacement(const ColorHypothesis& a, const ColorHypothesis& b, const Camera& assumed,

@@ -26,9 +26,16 @@ inline double hypothesis_unit(const Camera& camera) { return camera.width / 160.
 // `assumed` is the camera that the colour image would have if it were registered.
 ColorCamera color_camera(const ColorHypothesis& hypothesis, const Camera& assumed);
 
-// How unusual the hypothesis is among sensors with two cameras side by side: squared, in standard
-// deviations.
+// What is usual among sensors with two cameras side by side: a standard deviation of each number.
+// Baselines of either sign are about 25 mm; the others are about zero.
+const ColorHypothesis& usual_deviation();
+
+// How unusual the hypothesis is among them: squared, in standard deviations.
 double improbability(const ColorHypothesis& hypothesis);
+
+// With another baseline, in its unit, and the centre such that what is at a depth of `z` (m) stays.
+ColorHypothesis with_baseline(const ColorHypothesis& hypothesis, double baseline,
+                              const Camera& assumed, double z);
 
 // How far apart two hypotheses put points of the scene: px rms.
 double displacement(const ColorHypothesis& a, const ColorHypothesis& b, const Camera& assumed,

@@ -34,13 +34,45 @@ struct Candidate {
 
 bool better(const Candidate& a, const Candidate& b) { return a.value > b.value; }
 
+// What may have been otherwise.
+struct Doubt {
+  int left_out = -1;                                         // part of the image
+  ColorHypothesis usual_moved_by = ColorHypothesis::Zero();  // where sensors are not what we think
+};
+
+// The answer under a doubt, and how much its square counts in a variance.
+struct Replicate {
+  ColorHypothesis hypothesis;
+  double weight;
+};
+
+// Standard deviation, px rms, of where `best` puts the points.
+double spread(const std::vector<Replicate>& replicates, const ColorHypothesis& best,
+              const Camera& assumed, const std::vector<Eigen::Vector3d>& points) {
+  double variance = 0;
+  for (const Replicate& replicate : replicates) {
+    const double moved = displacement(replicate.hypothesis, best, assumed, points);
+    variance += replicate.weight * moved * moved;
+  }
+  return std::sqrt(variance);
+}
+
+std::vector<Eigen::Vector3d> all_at_depth(std::vector<Eigen::Vector3d> points, double z) {
+  for (Eigen::Vector3d& point : points) point *= z / point.z();
+  return points;
+}
+
 class Search {
  public:
   Search(const std::vector<ContourView>& views, const Camera& assumed)
       : views_(views), assumed_(assumed) {
     for (const ContourView& view : views) {
       scene_.insert(scene_.end(), view.scene.begin(), view.scene.end());
+      for (const ContourPoint& contour : view.contours) {
+        depths_.push_back(static_cast<double>(contour.point_in_depth.z()));
+      }
     }
+    std::sort(depths_.begin(), depths_.end());
   }
 
   ColorSearchResult run() const;
@@ -55,15 +87,19 @@ class Search {
   std::vector<Candidate> grid() const;
   std::vector<ColorHypothesis> candidates() const;
   Candidate refined(const Agreement& agreement, const ColorHypothesis& start, double size,
-                    int left_out = -1) const;
+                    const Doubt& doubt = {}) const;
+  double depth(double share) const {
+    return depths_[static_cast<std::size_t>(share * static_cast<double>(depths_.size() - 1))];
+  }
   std::vector<Candidate> followed_up(const Agreement& middle) const;
   ColorHypothesis finest(const std::vector<Candidate>& found) const;
   double around(const Agreement& agreement, const ColorHypothesis& best) const;
-  double uncertainty(const Agreement& agreement, const ColorHypothesis& best) const;
+  std::vector<Replicate> replicates(const Agreement& agreement, const ColorHypothesis& best) const;
 
   const std::vector<ContourView>& views_;
   const Camera& assumed_;
   std::vector<Eigen::Vector3d> scene_;
+  std::vector<double> depths_;  // of the contours, ascending
 };
 
 std::vector<Candidate> Search::grid() const {
@@ -99,14 +135,25 @@ std::vector<ColorHypothesis> Search::candidates() const {
 }
 
 Candidate Search::refined(const Agreement& agreement, const ColorHypothesis& start, double size,
-                          int left_out) const {
+                          const Doubt& doubt) const {
+  // The simplex varies the baseline about the contours' median depth, or baseline and centre would
+  // be one narrow diagonal valley.
+  const double z = depth(0.5);
+  const auto hypothesis_at = [&](const Eigen::VectorXd& at) {
+    ColorHypothesis without_baseline = at;
+    without_baseline[3] = 0;
+    return with_baseline(without_baseline, at[3], assumed_, z);
+  };
   const auto cost = [&](const Eigen::VectorXd& at) {
-    const ColorHypothesis h = at;
-    return kPriorWeight * improbability(h) - agreement.without(h, left_out);
+    const ColorHypothesis h = hypothesis_at(at);
+    return kPriorWeight * improbability(h - doubt.usual_moved_by) -
+           agreement.without(h, doubt.left_out);
   };
   constexpr int kMostSteps = 200;
-  const SimplexMinimum minimum = minimise(cost, start, size, kPrecision, kMostSteps);
-  return {minimum.at, -minimum.value};
+  ColorHypothesis from = with_baseline(start, 0, assumed_, z);
+  from[3] = start[3];
+  const SimplexMinimum minimum = minimise(cost, from, size, kPrecision, kMostSteps);
+  return {hypothesis_at(minimum.at), -minimum.value};
 }
 
 // What agreement comes to by chance: its mean over guesses on all sides of the best.
@@ -119,14 +166,21 @@ double Search::around(const Agreement& agreement, const ColorHypothesis& best) c
   return sum / 16;
 }
 
-double Search::uncertainty(const Agreement& agreement, const ColorHypothesis& best) const {
+// A jackknife over parts of the image tells what the answer owes to what was seen, and moving what
+// is usual by a standard deviation what it owes to that.
+std::vector<Replicate> Search::replicates(const Agreement& agreement,
+                                          const ColorHypothesis& best) const {
   constexpr int kParts = Agreement::kParts;
-  double sum = 0;
+  std::vector<Replicate> all;
   for (int part = 0; part < kParts; ++part) {
-    const double moved = apart(refined(agreement, best, 0.25, part).hypothesis, best);
-    sum += moved * moved;
+    const Doubt doubt{part, ColorHypothesis::Zero()};
+    all.push_back({refined(agreement, best, 0.5, doubt).hypothesis, (kParts - 1.0) / kParts});
   }
-  return std::sqrt(sum * (kParts - 1) / kParts);
+  for (int i = 0; i < usual_deviation().size(); ++i) {
+    const Doubt doubt{-1, usual_deviation()[i] * ColorHypothesis::Unit(i)};
+    all.push_back({refined(agreement, best, 0.5, doubt).hypothesis, 1});
+  }
+  return all;
 }
 
 // Followed from the coarse to the middle scale, best first.
@@ -140,7 +194,8 @@ std::vector<Candidate> Search::followed_up(const Agreement& middle) const {
   return found;
 }
 
-// The middle scale knows which valley is the right one, but not always which end of it.
+// The middle scale knows which valley is the right one, but not always which end of it: that of a
+// baseline to the left or to the right.
 ColorHypothesis Search::finest(const std::vector<Candidate>& found) const {
   std::vector<ColorHypothesis> followed;
   std::vector<Candidate> finalists;
@@ -152,7 +207,9 @@ ColorHypothesis Search::finest(const std::vector<Candidate>& found) const {
     });
     if (same) continue;
     followed.push_back(candidate.hypothesis);
-    finalists.push_back(refined(fine, candidate.hypothesis, 0.5));
+    const ColorHypothesis& h = candidate.hypothesis;
+    const ColorHypothesis mirrored = with_baseline(h, -h[3], assumed_, depth(0.5));
+    finalists.push_back(std::min(refined(fine, h, 0.5), refined(fine, mirrored, 0.5), better));
   }
   const auto best = std::min_element(finalists.begin(), finalists.end(), better);
   return refined(agreement(kFinest), best->hypothesis, 0.5).hypothesis;
@@ -174,8 +231,15 @@ ColorSearchResult Search::run() const {
     result.rival_share = share(rival.hypothesis);
     break;
   }
-  result.uncertainty = uncertainty(agreement(kFinest), result.best);
   result.displacement = apart(result.best, ColorHypothesis::Zero());
+  const std::vector<Replicate> doubted = replicates(agreement(kFinest), result.best);
+  result.uncertainty = spread(doubted, result.best, assumed_, scene_);
+  for (std::size_t i = 0; i < kUncertaintyDepths.size(); ++i) {
+    result.uncertainty_at[i] =
+        spread(doubted, result.best, assumed_, all_at_depth(scene_, kUncertaintyDepths[i]));
+  }
+  result.nearest = depth(0.05);
+  result.farthest = depth(0.95);
   return result;
 }
 

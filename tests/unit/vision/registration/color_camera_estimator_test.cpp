@@ -90,6 +90,26 @@ TEST(ColorCameraEstimator, FindsAColorCameraBesideTheDepthCamera) {
   EXPECT_GT(verdict.search.displacement, 15);
 }
 
+double baseline(const ColorCamera& color) { return -color.camera_from_depth.translation().x(); }
+
+// A baseline that is none of the usual ones, seen at 0.5 to 1 m as well as further off.
+TEST(ColorCameraEstimator, NearThingsTellTheBaseline) {
+  ColorCamera close_by = beside();
+  close_by.camera_from_depth = Pose(so3_exp({0, 0, 0.006}), {-0.015, 0, 0});
+  const RegistrationVerdict far_only = verdict_on(noisy_room(), close_by);
+  test::SyntheticRoom room = noisy_room();
+  room.furniture.push_back({{-0.25, -0.3, 0.85}, {-0.12, -0.15, 0.95}});
+  room.furniture.push_back({{0.1, -0.2, 0.75}, {0.2, 0.1, 0.85}});
+  const RegistrationVerdict near_too = verdict_on(room, close_by);
+  ASSERT_EQ(far_only.registration, Registration::estimated);
+  ASSERT_EQ(near_too.registration, Registration::estimated);
+  EXPECT_GT(far_only.search.nearest, 1.2);
+  EXPECT_LT(near_too.search.nearest, 0.6);
+  EXPECT_GT(far_only.search.uncertainty_at[0], 2);                    // 2.4 px: 21.5 mm
+  EXPECT_LT(near_too.search.uncertainty_at[0], 1);                    // 0.3 px
+  EXPECT_NEAR(baseline(near_too.color), baseline(close_by), 0.0015);  // 15.3 mm
+}
+
 TEST(ColorCameraEstimator, RecognisesRegisteredImages) {
   const RegistrationVerdict verdict = verdict_on(noisy_room(), {kDepth, {}});
   EXPECT_EQ(verdict.registration, Registration::registered);
