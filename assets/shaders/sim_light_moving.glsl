@@ -2,7 +2,6 @@
 uniform sampler2D still_map;    // m along the key light's way to the first still thing
 uniform mat4 still_from_world;  // to place in that map (0..1) and m along the way
 uniform float still_texel;      // m
-uniform vec3 towards_light;
 uniform vec3 key_light;   // irradiance on a surface that faces it
 uniform vec3 room_above;  // radiance
 uniform vec3 room_below;
@@ -13,10 +12,11 @@ vec3 light_here() {
   // The integral of a radiance that grows linearly with height, times the cosine.
   vec3 light = open * open * mix(room_below, room_above, 0.5 + n.z / 3.0);
   float facing = dot(n, towards_light);
-  if (facing > 0.0) {
-    float seen = arriving(movers_map, movers_from_world, movers_texel, point_in_world, n);
-    if (seen > 0.0) seen *= arriving(still_map, still_from_world, still_texel, point_in_world, n);
-    light += facing * seen * key_light;
-  }
+  int lit = facing > 0.0 ? 1 : 0;
+  vec3 among = (movers_from_world * vec4(point_in_world + 1.5 * movers_texel * n, 1.0)).xyz;
+  vec3 below = (still_from_world * vec4(point_in_world + 1.5 * still_texel * n, 1.0)).xyz;
+  float seen = arriving(movers_map, movers_from_world, movers_texel, among, lit) *
+               arriving(still_map, still_from_world, still_texel, below, lit);
+  light += max(facing, 0.0) * seen * key_light;
   return sqrt(light);
 }

@@ -11,13 +11,22 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Points this far apart on small things, and on large ones no more than so many along a side.
-constexpr double kSpacing = 0.005;  // m
-constexpr int kMostPoints = 100;
+constexpr double kSpacing = 0.005;  // m, of the points
+// Parts larger than this have none: what touches them is smaller and touches with its own.
+constexpr double kLarge = 0.6;  // m
 
 int points_along(double length, int at_least) {
-  const int wanted = static_cast<int>(std::ceil(length / kSpacing));
-  return std::max(at_least, std::min(wanted, kMostPoints));
+  return std::max(at_least, static_cast<int>(std::ceil(length / kSpacing)));
+}
+
+// Of a box in another frame.
+Eigen::AlignedBox3d box_around(const Pose& to_from_from, const Eigen::AlignedBox3d& from) {
+  Eigen::AlignedBox3d to;
+  for (int corner = 0; corner < 8; ++corner) {
+    const auto type = static_cast<Eigen::AlignedBox3d::CornerType>(corner);
+    to.extend(to_from_from * Vector3d(from.corner(type)));
+  }
+  return to;
 }
 
 bool equal(const Pose& a, const Pose& b) {
@@ -32,14 +41,16 @@ ContactFinder::ContactFinder(const World& world) : world_(world), bodies_(world.
     Body& body = bodies_[static_cast<std::size_t>(part.thing)];
     body.parts.push_back(static_cast<int>(i));
     for (const Patch& patch : patches_of(part.shape)) {
-      const int columns = points_along(patch.width, patch.columns);
-      const int rows = points_along(patch.height, patch.rows);
+      const bool large = std::max(patch.width, patch.height) > kLarge;
+      const int columns = large ? 1 : points_along(patch.width, patch.columns);
+      const int rows = large ? 1 : points_along(patch.height, patch.rows);
       for (int row = 0; row <= rows; ++row) {
         for (int column = 0; column <= columns; ++column) {
           const double u = static_cast<double>(column) / columns;
           const double v = static_cast<double>(row) / rows;
-          body.points.push_back(part.thing_from_part * patch.at(u, v).position);
-          body.box.extend(body.points.back());
+          const Vector3d point = part.thing_from_part * patch.at(u, v).position;
+          body.box.extend(point);
+          if (!large) body.points.push_back(point);
         }
       }
     }
@@ -52,6 +63,7 @@ bool ContactFinder::reaches(const Body& points_of, int other, const Pose& other_
   Eigen::AlignedBox3d near = target.box;
   near.min().array() -= kTouching;
   near.max().array() += kTouching;
+  if (!near.intersects(box_around(other_from_body, points_of.box))) return false;
   for (const Vector3d& point : points_of.points) {
     const Vector3d place = other_from_body * point;
     if (!near.contains(place)) continue;

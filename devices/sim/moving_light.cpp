@@ -1,10 +1,12 @@
 #include "devices/sim/moving_light.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
 #include <Eigen/Geometry>
+#include <opencv2/imgproc.hpp>
 
 namespace armsreach::sim {
 namespace {
@@ -13,9 +15,42 @@ constexpr int kStillSide = 1024;  // px
 constexpr int kMoversSide = 512;
 constexpr int kUnderSide = 128;
 
+constexpr int kMaskSide = 128;
+
+constexpr double kSearched = 0.2;  // m, as in sim_shadow.glsl
+constexpr double kCovers = 0.05;   // m, kReach in sim_light_beside.glsl
+
+constexpr int kMoversMaskUnit = 5;
+constexpr int kUnderMaskUnit = 6;
 constexpr int kMoversUnit = 2;
 constexpr int kUnderUnit = 3;
 constexpr int kStillUnit = 4;
+
+bool same(const Pose& a, const Pose& b) {
+  return a.translation() == b.translation() && a.rotation().coeffs() == b.rotation().coeffs();
+}
+
+std::vector<Eigen::Vector3d> corners_of(const Eigen::AlignedBox3d& box) {
+  std::vector<Eigen::Vector3d> corners;
+  for (int i = 0; i < 8; ++i)
+    corners.emplace_back(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
+  return corners;
+}
+
+// From a box along the light's way down to the floor, and as far aside as penumbra and dimness
+// reach.
+Eigen::AlignedBox3d box_of_shadow(const Eigen::AlignedBox3d& box, const Light& light) {
+  constexpr double kLongest = 4.0;  // m
+  const double down = std::max(0.0, box.max().z()) / std::max(1e-3, light.towards.z());
+  const double length = std::min(kLongest, down);
+  Eigen::AlignedBox3d swept = box;
+  for (const Eigen::Vector3d& corner : corners_of(box))
+    swept.extend(Eigen::Vector3d(corner - length * light.towards));
+  const double reach = kCovers + std::tan(light.spread) * length;
+  swept.min().array() -= reach;
+  swept.max().array() += reach;
+  return swept;
+}
 
 WantedPart part_that(const World& world, bool moves) {
   return [&world, moves](const Part& part) {
@@ -51,14 +86,18 @@ Result<MovingLight> MovingLight::make(const render::Gl& gl, const World& world,
     if (!camera) return camera.error();
     map->camera = std::move(*camera);
   }
-  const std::vector<Pose> at_origin(world.things.size());
+  constexpr render::TextureFormat kMask{GL_R8, GL_RED, GL_UNSIGNED_BYTE};
+  for (Map* map : {&made.movers_, &made.under_})
+    map->mask = render::Texture(gl, kMaskSide, kMaskSide, kMask, GL_NEAREST);
+  made.boxes_.resize(world.things.size());
   std::vector<Pose> at_start;
-  for (std::size_t i = 0; i < world.things.size(); ++i) {
-    at_start.push_back(world.things[i].world_from_thing);
-    const int index = static_cast<int>(i);
-    const bool moves = world.things[i].moves;
-    made.balls_.push_back(ball_around(
-        world, mesh, at_origin, [&](const Part& part) { return moves && part.thing == index; }));
+  for (const Thing& thing : world.things) at_start.push_back(thing.world_from_thing);
+  for (std::size_t i = 0; i < world.parts.size(); ++i) {
+    const std::size_t thing = static_cast<std::size_t>(world.parts[i].thing);
+    if (!world.things[thing].moves) continue;
+    const MeshRange& range = mesh.parts[i];
+    for (std::uint32_t k = range.first; k < range.first + range.count; ++k)
+      made.boxes_[thing].extend(mesh.vertices[mesh.indices[k]].position.cast<double>());
   }
   const WantedPart still = part_that(world, false);
   made.still_.draw(world, gpu_world, at_start, still, world.light.towards,
@@ -68,29 +107,65 @@ Result<MovingLight> MovingLight::make(const render::Gl& gl, const World& world,
 
 void MovingLight::follow(const World& world, const GpuWorld& gpu_world,
                          const std::vector<Pose>& poses) {
-  Eigen::AlignedBox3d box;
+  if (std::equal(poses.begin(), poses.end(), poses_.begin(), poses_.end(), same)) return;
+  poses_ = poses;
+  shaded_.clear();
+  Eigen::AlignedBox3d all;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    if (balls_[i].radius == 0) continue;
-    const Eigen::Vector3d centre = poses[i] * balls_[i].centre;
-    box.extend(Eigen::Vector3d(centre.array() - balls_[i].radius));
-    box.extend(Eigen::Vector3d(centre.array() + balls_[i].radius));
+    if (boxes_[i].isEmpty()) continue;
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& corner : corners_of(boxes_[i])) box.extend(poses[i] * corner);
+    shaded_.push_back(box_of_shadow(box, world.light));
+    all.extend(box);
   }
-  const Ball ball{box.center(), 0.5 * box.diagonal().norm()};
+  const Ball around_all{all.center(), 0.5 * all.diagonal().norm()};
   const WantedPart moving = part_that(world, true);
-  movers_.draw(world, gpu_world, poses, moving, world.light.towards, ball);
-  under_.draw(world, gpu_world, poses, moving, -Eigen::Vector3d::UnitZ(), ball);
+  movers_.draw(world, gpu_world, poses, moving, world.light.towards, around_all);
+  under_.draw(world, gpu_world, poses, moving, -Eigen::Vector3d::UnitZ(), around_all);
+  mark(movers_, kSearched * std::tan(world.light.spread) + 4 * static_cast<double>(movers_.texel));
+  mark(under_, kCovers);
+}
+
+void MovingLight::mark(Map& map, double margin) const {
+  cv::Mat mask = cv::Mat::zeros(kMaskSide, kMaskSide, CV_8U);
+  const double pixels_per_metre = kMaskSide / (map.camera.side() * static_cast<double>(map.texel));
+  const int outline = 2 * static_cast<int>(std::ceil(margin * pixels_per_metre)) + 2;
+  for (std::size_t i = 0; i < poses_.size(); ++i) {
+    if (boxes_[i].isEmpty()) continue;
+    std::vector<cv::Point> corners;
+    for (const Eigen::Vector3d& corner : corners_of(boxes_[i])) {
+      const Eigen::Vector3f in_world = (poses_[i] * corner).cast<float>();
+      const Eigen::Vector4f place = map.map_from_world * in_world.homogeneous();
+      corners.emplace_back(static_cast<int>(place.x() * kMaskSide),
+                           static_cast<int>(place.y() * kMaskSide));
+    }
+    std::vector<cv::Point> hull;
+    cv::convexHull(corners, hull);
+    cv::fillConvexPoly(mask, hull, cv::Scalar(255));
+    cv::polylines(mask, hull, true, cv::Scalar(255), outline);
+  }
+  map.mask.upload(mask.data);
+}
+
+bool MovingLight::reaches(const Eigen::AlignedBox3d& box) const {
+  return std::any_of(shaded_.begin(), shaded_.end(),
+                     [&](const Eigen::AlignedBox3d& shaded) { return shaded.intersects(box); });
 }
 
 void MovingLight::bind() const {
   movers_.camera.texture().bind(kMoversUnit);
   under_.camera.texture().bind(kUnderUnit);
   still_.camera.texture().bind(kStillUnit);
+  movers_.mask.bind(kMoversMaskUnit);
+  under_.mask.bind(kUnderMaskUnit);
 }
 
 void MovingLight::set(const render::Program& program, const Light& light) const {
   program.set("movers_map", kMoversUnit);
   program.set("under_map", kUnderUnit);
   program.set("still_map", kStillUnit);
+  program.set("movers_mask", kMoversMaskUnit);
+  program.set("under_mask", kUnderMaskUnit);
   program.set("movers_from_world", movers_.map_from_world);
   program.set("movers_texel", movers_.texel);
   program.set("under_from_world", under_.map_from_world);

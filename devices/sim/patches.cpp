@@ -14,9 +14,14 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kTurn = 2 * std::numbers::pi;
-// A circle of radius r is drawn as a polygon that lies up to r (1 - cos(pi / n)) inside it: 21 um
-// for a mug's 4 cm.
-constexpr int kSegments = 96;
+// A circle of radius r is drawn as a polygon that lies up to r (1 - cos(pi / n)) inside it.
+constexpr double kRoundness = 30e-6;  // m
+
+int segments_of(double radius) {
+  const double half_corner = std::acos(1 - std::min(kRoundness / radius, 0.5));
+  return std::clamp(static_cast<int>(std::ceil(std::numbers::pi / half_corner)), 16, 128);
+}
+
 constexpr double kSmoothCosine = 0.766;  // profile corners under 40 degrees are rounded
 
 Patch flat(const Vector3d& centre, const Vector3d& along_u, const Vector3d& along_v) {
@@ -59,14 +64,14 @@ Vector3d around(double u, double radius, double z) {
 
 // One straight piece of a profile turned about z; the normals at its ends are (radial, z).
 Patch turned(const Vector2d& from, const Vector2d& to, const Vector2d& normal_from,
-             const Vector2d& normal_to) {
+             const Vector2d& normal_to, int segments) {
   Patch patch;
   patch.at = [=](double u, double v) {
     const Vector2d p = (1 - v) * from + v * to;
     const Vector2d n = ((1 - v) * normal_from + v * normal_to).normalized();
     return SurfacePoint{around(u, p.x(), p.y()), around(u, n.x(), n.y())};
   };
-  patch.columns = kSegments;
+  patch.columns = segments;
   patch.width = kTurn * std::max(from.x(), to.x());
   patch.height = (to - from).norm();
   patch.disc = std::abs(to.y() - from.y()) < 0.3 * patch.height;
@@ -85,9 +90,13 @@ std::vector<Patch> patches(const Lathe& lathe) {
       return normals[own];
     return (normals[own] + normals[other]).normalized();
   };
+  double widest = 0;
+  for (const Vector2d& point : profile) widest = std::max(widest, point.x());
+  const int segments = segments_of(widest);
   std::vector<Patch> made;
-  for (std::size_t i = 0; i < normals.size(); ++i)
-    made.push_back(turned(profile[i], profile[i + 1], joint(i, i - 1), joint(i, i + 1)));
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    made.push_back(turned(profile[i], profile[i + 1], joint(i, i - 1), joint(i, i + 1), segments));
+  }
   double height = 0;
   for (const Vector2d& point : profile) height = std::max(height, point.y());
   for (Patch& patch : made) patch.fit_height = height;

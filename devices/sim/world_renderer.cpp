@@ -49,6 +49,18 @@ Result<render::Program> surface_program(const render::Gl& gl, std::string_view l
       gl, {"shaders/target.glsl", "shaders/view.glsl", "shaders/sim_surface.vert.glsl"}, parts);
 }
 
+std::vector<Eigen::AlignedBox3d> boxes_of_parts(const World& world, const WorldMesh& mesh) {
+  std::vector<Eigen::AlignedBox3d> boxes(world.parts.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const Pose& pose =
+        world.things[static_cast<std::size_t>(world.parts[i].thing)].world_from_thing;
+    const MeshRange& range = mesh.parts[i];
+    for (std::uint32_t k = range.first; k < range.first + range.count; ++k)
+      boxes[i].extend(pose * mesh.vertices[mesh.indices[k]].position.cast<double>());
+  }
+  return boxes;
+}
+
 }  // namespace
 
 WorldRenderer::WorldRenderer(const render::Gl& gl, const World& world, const Camera& camera)
@@ -73,7 +85,7 @@ Status WorldRenderer::make_programs() {
                                                               "shaders/sim_light_beside.glsl",
                                                               "shaders/sim_light_moving.glsl"};
   for (std::size_t light = 0; light < kLights.size(); ++light) {
-    if ((light == kStill) == anything_moves_) continue;  // not needed here
+    if (light != kStill && !anything_moves_) continue;
     for (const bool shiny : {false, true}) {
       auto program = surface_program(gl_, kLights[light], shiny);
       if (!program) return program.error();
@@ -101,6 +113,7 @@ Status WorldRenderer::paint(std::uint64_t seed) {
   light_map_ = render::Texture(gl_, light->cols, light->rows, kColor);
   light_map_.upload(light->data);
   if (!anything_moves_) return ok();
+  boxes_ = boxes_of_parts(world_, mesh);
   auto moving = MovingLight::make(gl_, world_, mesh, gpu_world_);
   if (!moving) return moving.error();
   moving_light_ = std::move(*moving);
@@ -157,13 +170,15 @@ ExactImages WorldRenderer::read() const {
   return images;
 }
 
-WorldRenderer::Kind WorldRenderer::kind_of(const Part& part) const {
+WorldRenderer::Kind WorldRenderer::kind_of(std::size_t index) const {
+  const Part& part = world_.parts[index];
+  Kind kind;
+  kind.shiny = world_.materials[static_cast<std::size_t>(part.material)].shine > 0;
+  kind.panel = std::holds_alternative<Panel>(part.shape);
+  if (!anything_moves_) return kind;
   const bool moves = world_.things[static_cast<std::size_t>(part.thing)].moves;
-  return {moves             ? kMoving
-          : anything_moves_ ? kBeside
-                            : kStill,
-          world_.materials[static_cast<std::size_t>(part.material)].shine > 0,
-          std::holds_alternative<Panel>(part.shape)};
+  kind.light = moves ? kMoving : moving_light_.reaches(boxes_[index]) ? kBeside : kStill;
+  return kind;
 }
 
 void WorldRenderer::draw_parts(const Kind& kind, const Pose& world_from_camera,
@@ -172,7 +187,7 @@ void WorldRenderer::draw_parts(const Kind& kind, const Pose& world_from_camera,
   bool ready = false;
   for (std::size_t i = 0; i < world_.parts.size(); ++i) {
     const Part& part = world_.parts[i];
-    if (!(kind_of(part) == kind)) continue;
+    if (!(kind_of(i) == kind)) continue;
     if (!std::exchange(ready, true)) use(program, world_from_camera);
     const std::size_t material_index = static_cast<std::size_t>(part.material);
     const Material& material = world_.materials[material_index];

@@ -49,7 +49,7 @@ class WorldRenderer {
     bool panel = false;
     bool operator==(const Kind&) const = default;
   };
-  Kind kind_of(const Part& part) const;
+  Kind kind_of(std::size_t part) const;
   void draw_parts(const Kind& kind, const Pose& world_from_camera,
                   const std::vector<Pose>& world_from_thing) const;
   void use(const render::Program& program, const Pose& world_from_camera) const;
@@ -59,6 +59,7 @@ class WorldRenderer {
   World world_;
   Camera camera_;
   GpuWorld gpu_world_;
+  std::vector<Eigen::AlignedBox3d> boxes_;  // in the world, of the parts that stay where they are
   bool anything_moves_ = false;
   MovingLight moving_light_;                                          // where anything moves
   std::array<std::array<render::Program, 2>, kLightKinds> programs_;  // dull, shiny

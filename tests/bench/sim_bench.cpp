@@ -27,9 +27,8 @@ void in_all_sizes(benchmark::internal::Benchmark* bench) {
 }
 BENCHMARK_CAPTURE(BM_SimFrame, bench, "bench")->Apply(in_all_sizes);
 BENCHMARK_CAPTURE(BM_SimFrame, kitchen_table, "kitchen-table")->Apply(in_all_sizes);
-BENCHMARK_CAPTURE(BM_SimFrame, assembly, "assembly,speed=4")->Apply(in_all_sizes);
-BENCHMARK_CAPTURE(BM_SimFrame, packaging, "packaging,speed=4")->Apply(in_all_sizes);
-BENCHMARK_CAPTURE(BM_SimFrame, packaging_sharp, "packaging,speed=4,exposure_ms=0")
-    ->Apply(in_all_sizes);
+BENCHMARK_CAPTURE(BM_SimFrame, assembly, "assembly")->Apply(in_all_sizes);
+BENCHMARK_CAPTURE(BM_SimFrame, packaging, "packaging")->Apply(in_all_sizes);
+BENCHMARK_CAPTURE(BM_SimFrame, packaging_sharp, "packaging,exposure_ms=0")->Apply(in_all_sizes);
 
 }  // namespace

@@ -13,6 +13,7 @@ TEST(EndToEndCommandLine, HelpEverywhere) {
   for (const std::vector<std::string>& verb :
        std::vector<std::vector<std::string>>{{},
                                              {"run"},
+                                             {"record"},
                                              {"demo"},
                                              {"sources"},
                                              {"evaluate"},

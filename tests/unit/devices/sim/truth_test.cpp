@@ -61,6 +61,8 @@ DepthErrors depth_errors(const World& world, const Frame& frame) {
   DepthErrors errors;
   for (int y = 0; y < frame.depth.rows; ++y) {
     for (int x = 0; x < frame.depth.cols; ++x) {
+      // The rays know nothing of hands.
+      if (frame.truth->masks.at<std::uint16_t>(y, x) > frame.truth->things.size()) continue;
       const auto hit = clear_hit(world, frame, Eigen::Vector2d(x, y));
       if (!hit) continue;
       const TrueThing& thing = frame.truth->things[static_cast<std::size_t>(hit->thing)];
