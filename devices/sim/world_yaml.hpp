@@ -15,9 +15,10 @@
 //   motions: [{thing: NAME, keys: [{t, at, turn_deg} | {t, rest: true}, ...]}, ...]
 //   hands: none, or as in hand_yaml.hpp
 //   infrared: none, or as in infrared/infrared_yaml.hpp
+//   shown_by: main | ir, the sensor that is meant when none is named
 //
 // in metres and seconds, with angles in degrees where the key says so; gimbal, path of the sensor,
-// offset, wearer, motions and hands may be left out. SHAPE is one of
+// offset, wearer, motions, hands and shown_by (main) may be left out. SHAPE is one of
 //
 //   box: [x, y, z]   cylinder: [radius, height]   capsule: [radius, height]   panel: [x, y]
 //   mug: [radius, height, wall]   lathe: [[radius, z], ...]

@@ -26,6 +26,8 @@ void in_all_sizes(benchmark::internal::Benchmark* bench) {
   bench->Arg(320)->Arg(640)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 }
 BENCHMARK_CAPTURE(BM_SimFrame, bench, "bench")->Apply(in_all_sizes);
+BENCHMARK_CAPTURE(BM_SimFrame, near, "near")->Apply(in_all_sizes);
+BENCHMARK_CAPTURE(BM_SimFrame, haptic_table, "haptic-table")->Apply(in_all_sizes);
 BENCHMARK_CAPTURE(BM_SimFrame, kitchen_table, "kitchen-table")->Apply(in_all_sizes);
 BENCHMARK_CAPTURE(BM_SimFrame, assembly, "assembly")->Apply(in_all_sizes);
 BENCHMARK_CAPTURE(BM_SimFrame, packaging, "packaging")->Apply(in_all_sizes);

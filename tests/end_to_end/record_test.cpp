@@ -1,6 +1,9 @@
 // Recording through the command line, as a user would.
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -51,22 +54,43 @@ TEST(EndToEndRecord, OnlyIntoANewFolder) {
   EXPECT_EQ(read_text(folder / "precious.txt"), "mine");
 }
 
+// Rotations are normalised anew when they are read, which may change their last digit.
+bool alike(const nlohmann::json& a, const nlohmann::json& b) {
+  if (a.is_number() && b.is_number()) return std::abs(a.get<double>() - b.get<double>()) < 1e-12;
+  if (a.type() != b.type() || a.size() != b.size()) return false;
+  if (!a.is_structured()) return a == b;
+  return std::equal(a.begin(), a.end(), b.begin(), alike);
+}
+
+bool alike_line_by_line(const std::string& a, const std::string& b) {
+  std::istringstream first(a);
+  std::istringstream second(b);
+  std::string x;
+  std::string y;
+  while (std::getline(first, x)) {
+    if (!std::getline(second, y) || !alike(nlohmann::json::parse(x), nlohmann::json::parse(y)))
+      return false;
+  }
+  return !std::getline(second, y);
+}
+
 TEST(EndToEndRecord, ARigOfTwoSensorsWithAGimbalIsRecordedAndRecordedAgain) {
   const TemporaryFolder folder;
   const std::string first = folder / "first";
   const std::string second = folder / "second";
-  auto result = run_armsreach(
-      {"record", "--source", "main=sim:packaging,mount=shoulder,gimbal=yes,width=64,frames=4",
-       "--source", "side=sim:assembly,width=64,frames=3", "--out", first});
+  auto result = run_armsreach({"record", "--source",
+                               "main=sim:packaging,mount=shoulder,gimbal=yes,width=64,frames=4",
+                               "--source", "side=sim:assembly,width=64,frames=3", "--out", first});
   ASSERT_EQ(result.exit_code, 0) << result.output;
   EXPECT_EQ(line_count(folder / "first/gimbal.txt"), 4);
   EXPECT_EQ(line_count(folder / "first/side/truth.jsonl"), 3);
   result = run_armsreach({"record", "--rig", first + "/rig.yaml", "--out", second});
   ASSERT_EQ(result.exit_code, 0) << result.output;
-  for (const char* file :
-       {"rig.yaml", "truth.jsonl", "gimbal.txt", "associations.txt", "side/groundtruth.txt"}) {
+  for (const char* file : {"rig.yaml", "gimbal.txt", "associations.txt", "side/groundtruth.txt"}) {
     EXPECT_EQ(read_text(folder / "first" / file), read_text(folder / "second" / file)) << file;
   }
+  EXPECT_TRUE(alike_line_by_line(read_text(folder / "first/truth.jsonl"),
+                                 read_text(folder / "second/truth.jsonl")));
 }
 
 TEST(EndToEndRecord, AnInterruptedRecordingIsAShorterOne) {
@@ -79,8 +103,8 @@ TEST(EndToEndRecord, AnInterruptedRecordingIsAShorterOne) {
   const int frames = line_count(folder / "made/associations.txt");
   ASSERT_GT(frames, 0);
   EXPECT_EQ(line_count(folder / "made/truth.jsonl"), frames);
-  const auto result = run_armsreach({"record", "--source", "tum:" + made, "--out",
-                                     folder / "again"});
+  const auto result =
+      run_armsreach({"record", "--source", "tum:" + made, "--out", folder / "again"});
   EXPECT_EQ(result.exit_code, 0) << result.output;
   EXPECT_EQ(line_count(folder / "again/associations.txt"), frames);
 }

@@ -77,7 +77,9 @@ TEST(HandYaml, SaysWhatIsWrong) {
   EXPECT_FALSE(read("").ok());
 }
 
-TEST(HandYaml, TheScriptThatComesWithTheProgramIsSound) {
+TEST(HandYaml, TheScriptsThatComeWithTheProgramAreSound) {
+  const auto tour = read(std::string(render::asset("hands/tour.yaml")));
+  ASSERT_TRUE(tour.ok()) << tour.error().message();
   const auto hands = read(std::string(render::asset("hands/gestures.yaml")));
   ASSERT_TRUE(hands.ok()) << hands.error().message();
   // Issue's list: points, L, open, fist, grasp.
@@ -87,6 +89,28 @@ TEST(HandYaml, TheScriptThatComesWithTheProgramIsSound) {
                             [&](const HandKey& key) { return key.gesture == gesture; }))
         << name(gesture);
   }
+}
+
+TEST(HandYaml, WhatMovesByItselfIsHeldOnIt) {
+  const std::string text(render::asset("worlds/assembly.yaml"));
+  const auto complaint = [&text](const std::string& key) {
+    std::istringstream in(text.substr(0, text.rfind("\nhands:") + 1) +
+                          "hands: [{side: right, frame: world, keys: [{t: 0, pose: grasp, at: "
+                          "[0, 0, 1], " +
+                          key + "}]}]\n");
+    const auto world = read_world_yaml(in, "assembly");
+    return world.ok() ? std::string("nothing") : world.error().message();
+  };
+  EXPECT_EQ(complaint("on: hammer, hold: hammer"), "nothing");
+  EXPECT_EQ(complaint("on: floor"), "nothing");
+  EXPECT_THAT(complaint("hold: hammer"), HasSubstr("hold it with 'on: hammer'"));
+  EXPECT_THAT(complaint("on: cutting mat, hold: cutting mat"), HasSubstr("no motion"));
+  EXPECT_THAT(complaint("on: anvil"), HasSubstr("'anvil'"));
+  EXPECT_THAT(
+      read("hands: [{side: left, frame: world, keys: [{t: 0, pose: L, at: [0, 0, 0], on: a}]}]")
+          .error()
+          .message(),
+      HasSubstr("needs a world"));
 }
 
 TEST(HandYaml, AWorldsHandsHoldThingsOfTheWorld) {

@@ -55,6 +55,47 @@ TEST(HandActor, GoesWithTheCameraOrStaysInTheWorld) {
   }
 }
 
+TEST(HandActor, OnAThingItKeepsItsGripWhereverTheThingGoes) {
+  HandDescription hand;
+  hand.frame = HandFrame::world;
+  HandKey key;
+  key.at = {0, 0, 1};
+  hand.keys.push_back(key);
+  key = {};
+  key.time = 1;
+  key.grip = 0.03;
+  key.on = key.hold = "hammer";
+  key.at = {-0.15, 0, 0};
+  key.turn = {0.4, -0.2, 1.1};
+  hand.keys.push_back(key);
+  key.time = 3;
+  hand.keys.push_back(key);
+  const auto world_from_hammer = [](const std::string& thing, double time) {
+    EXPECT_EQ(thing, "hammer");
+    return Pose(Eigen::Quaterniond(Eigen::AngleAxisd(time, Eigen::Vector3d::UnitX())),
+                {time, 0.2 * time, 1});
+  };
+  for (const bool left : {false, true}) {
+    hand.left = left;
+    const HandActor actor(hand, world_from_hammer);
+    const auto hammer_from_hand = [&](double time) {
+      return world_from_hammer("hammer", time).inverse() * actor.world_from_hand(time, {});
+    };
+    const Pose grip = hammer_from_hand(1);
+    for (const double time : {1.3, 2.0, 2.9, 3.0, 7.0})
+      EXPECT_LT((grip.inverse() * hammer_from_hand(time)).log().norm(), 1e-9) << time;
+    // The handle is as thick as the fingers are closed: its axis lies before the palm's skin, which
+    // is 1.0 to 1.6 cm before the bones.
+    const Eigen::Vector3d handle_in_hand = grip.inverse() * key.at;
+    EXPECT_NEAR(handle_in_hand.z(), 0.015 + 0.013, 0.004);
+    EXPECT_GT(handle_in_hand.y(), 0.04);  // before the palm, not the wrist
+    // On the way it leaves the world's place without a jump.
+    EXPECT_LT(
+        (actor.world_from_hand(0, {}).inverse() * actor.world_from_hand(1e-3, {})).log().norm(),
+        1e-5);
+  }
+}
+
 TEST(HandActor, BeforeTheCameraItShowsItsPalmWithFingersUp) {
   const HandActor actor(points_then_opens(HandFrame::camera, false));
   const Pose camera_from_hand = actor.world_from_hand(0, {});
