@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
+#include <ctime>
 #include <sys/eventfd.h>
 #include <unistd.h>
 #include <utility>
@@ -12,21 +13,34 @@ namespace armsreach::app {
 namespace {
 
 constexpr int kExitAfterSecondSignal = 130;
+// One interruption may come twice: `timeout` signals the program and then its whole group.
+constexpr std::int64_t kSameInterrupt = 500'000'000;  // ns
 constexpr std::uint64_t kInterrupted = 1;
 constexpr std::uint64_t kDone = std::uint64_t{1} << 32;
 
 // All that a handler may touch: any thread, even a library's, may be the one that is interrupted.
 std::atomic<int> event_file{-1};
-std::atomic<int> interrupts{0};
+std::atomic<std::int64_t> first_interrupt{0};  // monotonic ns; 0: none yet
 
 void add(std::uint64_t what) {
   [[maybe_unused]] const ssize_t written = write(event_file.load(), &what, sizeof what);
 }
 
+std::int64_t monotonic_now() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);  // which a handler may call
+  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+}
+
 void on_signal(int) {
-  if (interrupts.fetch_add(1) > 0) _exit(kExitAfterSecondSignal);
   const int saved = errno;
-  add(kInterrupted);
+  const std::int64_t now = monotonic_now();
+  std::int64_t first = 0;
+  if (first_interrupt.compare_exchange_strong(first, now)) {
+    add(kInterrupted);
+  } else if (now - first > kSameInterrupt) {
+    _exit(kExitAfterSecondSignal);
+  }
   errno = saved;
 }
 
@@ -45,7 +59,7 @@ void watch(const std::function<void()>& on_interrupt) {
 }  // namespace
 
 InterruptGuard::InterruptGuard(std::function<void()> on_interrupt) {
-  interrupts = 0;
+  first_interrupt = 0;
   event_file = eventfd(0, EFD_CLOEXEC);
   thread_ = std::jthread([handler = std::move(on_interrupt)] { watch(handler); });
   struct sigaction action {};

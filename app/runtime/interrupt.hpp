@@ -1,5 +1,5 @@
 // Ctrl-C, termination and a closed terminal as an orderly end: the handler runs on a thread of its
-// own, so it may lock and wake as it likes; a second signal ends the program at once. One guard at
+// own, so it may lock and wake as it likes; another half a second later ends the program at once. One guard at
 // a time.
 #pragma once
 
