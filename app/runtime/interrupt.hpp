@@ -1,6 +1,6 @@
 // Ctrl-C, termination and a closed terminal as an orderly end: the handler runs on a thread of its
-// own, so it may lock and wake as it likes; another half a second later ends the program at once. One guard at
-// a time.
+// own, so it may lock and wake as it likes; another one, half a second later or more, ends the
+// program at once. One guard at a time.
 #pragma once
 
 #include <csignal>
