@@ -93,8 +93,8 @@ Result<cv::Mat> decode_units(const std::filesystem::path& file, const std::strin
   auto raw = decode(file, cv::IMREAD_UNCHANGED);
   if (!raw || raw->type() == CV_16UC1) return raw;
   const int bits = static_cast<int>(8 * raw->elemSize1());
-  return Error{"the " + kind + " image has " + std::to_string(raw->channels()) +
-                   " channel(s) of " + std::to_string(bits) + " bits",
+  return Error{"the " + kind + " image has " + std::to_string(raw->channels()) + " channel(s) of " +
+                   std::to_string(bits) + " bits",
                file.string(), kind + " images are 16-bit PNG files with one channel"};
 }
 

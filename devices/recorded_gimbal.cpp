@@ -57,8 +57,7 @@ Result<std::unique_ptr<Gimbal>> open_recorded_gimbal(const std::string& name,
   }
   auto read = read_gimbal_states(in, states.string());
   if (!read) return std::move(read).error();
-  return std::unique_ptr<Gimbal>(
-      std::make_unique<RecordedGimbal>(name, model, std::move(*read)));
+  return std::unique_ptr<Gimbal>(std::make_unique<RecordedGimbal>(name, model, std::move(*read)));
 }
 
 }  // namespace armsreach

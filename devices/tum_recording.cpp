@@ -237,7 +237,8 @@ SensorInfo sensor_of(const std::vector<ListedFrame>& frames, const Cameras& came
   return sensor;
 }
 
-Result<TruePoses> read_poses(const fs::path& folder, const SensorInfo& sensor, const Cameras& cameras) {
+Result<TruePoses> read_poses(const fs::path& folder, const SensorInfo& sensor,
+                             const Cameras& cameras) {
   TruePoses poses;
   // Without depth "camera" means the colour camera, while the file tells of the depth camera.
   if (!sensor.depth_camera && cameras.color) {

@@ -99,8 +99,8 @@ class RigWriter {
     if (!spec) return spec.error();
     for (std::size_t i = 0; i < spec->sensors.size(); ++i) {
       const RigSensorSpec& sensor = spec->sensors[i];
-      writers_.push_back({sensor.name, TumWriter(folder_ / sensor.source.place),
-                          rig.gimbal_of(sensor.name)});
+      writers_.push_back(
+          {sensor.name, TumWriter(folder_ / sensor.source.place), rig.gimbal_of(sensor.name)});
       const auto status = writers_.back().frames.begin(*rig.sensors()[i].source->sensor());
       if (!status) return status;
     }
