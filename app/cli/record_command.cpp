@@ -42,22 +42,6 @@ Status check_folder(const fs::path& folder) {
   return ok();
 }
 
-// The sensor that the recording is of in the first place lies in the folder itself, others in
-// folders of their names beside its images.
-std::size_t first_sensor(const Rig& rig) {
-  const auto& sensors = rig.sensors();
-  const auto index_where = [&](const auto& wanted) {
-    return static_cast<std::size_t>(std::find_if(sensors.begin(), sensors.end(), wanted) -
-                                    sensors.begin());
-  };
-  const std::size_t main =
-      index_where([](const RigSensor& sensor) { return sensor.name() == "main"; });
-  if (main < sensors.size()) return main;
-  const std::size_t with_depth = index_where(
-      [](const RigSensor& sensor) { return sensor.source->sensor()->depth_camera.has_value(); });
-  return with_depth < sensors.size() ? with_depth : 0;
-}
-
 Status check_name(const std::string& name) {
   const auto taken = {"rgb", "depth", "masks", "true_depth"};
   const bool plain = !name.empty() && name.find_first_of("/\\,= ") == std::string::npos &&
@@ -67,10 +51,11 @@ Status check_name(const std::string& name) {
                "give it another name: --source NAME=SPEC"};
 }
 
-// The rig as it will be played.
+// The rig as it will be played: the main sensor lies in the folder itself, others in folders of
+// their names beside its images.
 Result<RigSpec> recorded_rig(const Rig& rig) {
   RigSpec spec;
-  const std::size_t first = first_sensor(rig);
+  const std::size_t first = main_sensor(rig);
   for (std::size_t i = 0; i < rig.sensors().size(); ++i) {
     const RigSensor& sensor = rig.sensors()[i];
     RigSensorSpec one;
@@ -194,7 +179,7 @@ void add_record_command(CLI::App& app, Task* task) {
   command->add_option("--rig", o->rig.rig, "YAML file of named sensors")->excludes(source);
   command->add_option("--camera", o->rig.camera, "camera YAML in place of the source's own");
   command->add_option("--out", o->out, "new folder for the recording")->required();
-  command->add_option("--frames", o->frames, "stop after so many")->check(CLI::PositiveNumber);
+  command->add_option("--frames", o->frames, "stop after so many")->check(at_least_one, "COUNT");
   command->add_option("--seed", o->rig.seed, "of everything random")->capture_default_str();
   command->callback([task, o] { *task = [o] { return record(*o); }; });
 }

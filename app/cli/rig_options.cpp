@@ -1,5 +1,6 @@
 #include "app/cli/rig_options.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -39,6 +40,21 @@ Result<std::unique_ptr<Rig>> open_rig(const RigOptions& options) {
   auto camera = read_camera_file(options.camera);
   if (!camera) return camera.error();
   return armsreach::open_rig(*spec, *camera, all_source_kinds());
+}
+
+std::size_t main_sensor(const Rig& rig) {
+  std::size_t with_depth = rig.sensors().size();
+  for (std::size_t i = 0; i < rig.sensors().size(); ++i) {
+    const SensorInfo& info = *rig.sensors()[i].source->sensor();
+    if (info.name == "main") return i;
+    if (info.depth_camera) with_depth = std::min(with_depth, i);
+  }
+  return with_depth < rig.sensors().size() ? with_depth : 0;
+}
+
+std::string at_least_one(const std::string& text) {
+  const bool number = !text.empty() && text.find_first_not_of("0123456789") == text.npos;
+  return number && text.find_first_not_of('0') != text.npos ? "" : "must be 1 or more";
 }
 
 }  // namespace armsreach::app

@@ -1,6 +1,7 @@
 // The rig that a command line asks for.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -19,5 +20,11 @@ struct RigOptions {
 };
 
 Result<std::unique_ptr<Rig>> open_rig(const RigOptions& options);
+
+// Index of the sensor called main, or else of the first one that measures depth, or else 0.
+std::size_t main_sensor(const Rig& rig);
+
+// For counts on the command line: what is wrong with the text, or nothing.
+std::string at_least_one(const std::string& text);
 
 }  // namespace armsreach::app

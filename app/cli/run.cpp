@@ -29,17 +29,6 @@ Result<Config> read_config_file(const std::string& path) {
   return read_config(in, path);
 }
 
-// The sensor called main, or else the first one that measures depth, or else the first.
-SensorInfoPtr main_sensor(const Rig& rig) {
-  SensorInfoPtr with_depth;
-  for (const RigSensor& sensor : rig.sensors()) {
-    SensorInfoPtr info = sensor.source->sensor();
-    if (info->name == "main") return info;
-    if (info->depth_camera && !with_depth) with_depth = std::move(info);
-  }
-  return with_depth ? with_depth : rig.sensors().front().source->sensor();
-}
-
 PresenterOptions presenter_options(const RunOptions& options, const Config& config,
                                    const SensorInfo& sensor) {
   PresenterOptions out;
@@ -137,7 +126,7 @@ Status run(const RunOptions& options, const Config& config) {
   if (auto status = check_world_can_be_saved(options); !status) return status;
   auto rig = open_rig({options.sources, options.rig, options.camera, options.seed});
   if (!rig) return rig.error();
-  const SensorInfoPtr sensor = main_sensor(**rig);
+  const SensorInfoPtr sensor = (*rig)->sensors()[main_sensor(**rig)].source->sensor();
 
   EventLog log;
   if (auto status = log.open(options.events); !status) return status;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "app/cli/commands.hpp"
+#include "app/cli/rig_options.hpp"
 #include "app/cli/run_options.hpp"
 
 namespace armsreach::app {
@@ -26,13 +27,7 @@ void add_run_command(CLI::App& app, Task* task) {
   command->add_option("--pace", o->pace, "live skips stale frames, every-frame drops nothing")
       ->check(CLI::IsMember({"live", "every-frame"}))
       ->capture_default_str();
-  command->add_option("--frames", o->frames, "stop after so many")
-      ->check(
-          [](const std::string& text) {
-            const bool number = !text.empty() && text.find_first_not_of("0123456789") == text.npos;
-            return number && text.find_first_not_of('0') != text.npos ? "" : "must be 1 or more";
-          },
-          "COUNT");
+  command->add_option("--frames", o->frames, "stop after so many")->check(at_least_one, "COUNT");
   command->add_option("--record", o->record, "film (H.264 mp4)");
   command->add_option("--screenshots", o->screenshots, "folder for a PNG a second, and the last");
   command->add_option("--trajectory", o->trajectory, "camera poses in TUM format");

@@ -296,12 +296,15 @@ Result<RunSummary> Workspace::run() {
 
 Status Workspace::save_world() {
   if (!mapping_stage_ || (options_.map.empty() && options_.session.empty())) return ok();
-  if (!mapping_stage_->grew()) {  // what was loaded, if anything, stays as it is
+  // A map that nothing was added to stays as it is; of a session the objects may have changed.
+  const mapping::VoxelGrid& grid = mapping_stage_->map().grid();
+  const bool unchanged =
+      options_.session.empty() ? !mapping_stage_->grew() : grid.blocks.block_count() == 0;
+  if (unchanged) {
     log_.write({log_.now(), FaultEvent{"mapping", "nothing was added to the map: it is not saved",
                                        "a camera with depth that is tracked maps what it sees"}});
     return ok();
   }
-  const mapping::VoxelGrid& grid = mapping_stage_->map().grid();
   if (!options_.map.empty()) return save_map(options_.map, grid);
   const WorldViewPtr view = mapping_stage_->state() ? mapping_stage_->state()->view : nullptr;
   std::vector<SavedObject> objects;

@@ -124,6 +124,23 @@ TEST(EndToEndFoundAgain, AColourCameraIsTrackedInASavedMap) {
   EXPECT_EQ(read_text(folder / "m.ot"), map) << "a camera without depth maps nothing";
 }
 
+// A colour camera adds nothing to the map, but a person may still stand things in it.
+TEST(EndToEndFoundAgain, ObjectsOfASessionThatMappedNothingAreKept) {
+  ARMSREACH_RECORDING_OR_SKIP(path, "rgbd/livingroom");
+  TemporaryFolder folder;
+  const std::string session = folder / "session";
+  track(folder, "tum:" + path.string(), {"--frames", "30", "--session", session});
+  const std::string map = read_text(folder / "session" / "map.ot");
+  write_text(folder / "c.yaml",
+             "tracking: {alpha: 0}\n"
+             "actions: [{frame: 15, click: [440, 430], insert: cube}]\n");
+  track(folder, "images:" + (path / "rgb").string(),
+        {"--camera", path / "camera.yaml", "--frames", "30", "--session", session, "--config",
+         folder / "c.yaml"});
+  EXPECT_THAT(read_text(folder / "session" / "objects.json"), ::testing::HasSubstr("cube"));
+  EXPECT_EQ(read_text(folder / "session" / "map.ot"), map);
+}
+
 // As depth cameras begin: a projector warms up, an exposure settles.
 TEST(EndToEndFoundAgain, ACameraThatIsBlindAtFirstBeginsWhereItSees) {
   ARMSREACH_RECORDING_OR_SKIP(path, "rgbd/livingroom");
