@@ -29,14 +29,19 @@ Result<std::unique_ptr<Source>> played(Result<std::unique_ptr<Recording>> record
   return play(std::move(*recording), *loop);
 }
 
-bool always_a_path(const std::string&) { return true; }
+// A kind of recording that is a folder or file of its own; its options besides `loop` are left to
+// add.
+SourceKind recording_kind(const std::string& name, const std::string& usage) {
+  SourceKind kind;
+  kind.name = name;
+  kind.usage = usage;
+  kind.option_keys = {"loop"};
+  kind.place_is_path = [](const std::string&) { return true; };
+  return kind;
+}
 
 SourceKind tum_kind() {
-  SourceKind kind;
-  kind.name = "tum";
-  kind.usage = "tum:DIR[,loop=pingpong]";
-  kind.option_keys = {"loop"};
-  kind.place_is_path = always_a_path;
+  SourceKind kind = recording_kind("tum", "tum:DIR[,loop=pingpong]");
   kind.open = [](const SourceSpec& spec, const OpenOptions& options) {
     return played(open_tum_recording(spec.place, options), spec);
   };
@@ -47,11 +52,8 @@ SourceKind tum_kind() {
 }
 
 SourceKind images_kind() {
-  SourceKind kind;
-  kind.name = "images";
-  kind.usage = "images:DIR[,rate=30][,loop=pingpong]";
-  kind.option_keys = {"rate", "loop"};
-  kind.place_is_path = always_a_path;
+  SourceKind kind = recording_kind("images", "images:DIR[,rate=30][,loop=pingpong]");
+  kind.option_keys.emplace_back("rate");
   kind.open = [](const SourceSpec& spec,
                  const OpenOptions& options) -> Result<std::unique_ptr<Source>> {
     const auto rate = number_option(spec, "rate", 30, 0.001, 1000);  // Hz
@@ -65,11 +67,7 @@ SourceKind images_kind() {
 }
 
 SourceKind video_kind() {
-  SourceKind kind;
-  kind.name = "video";
-  kind.usage = "video:FILE[,loop=pingpong]";
-  kind.option_keys = {"loop"};
-  kind.place_is_path = always_a_path;
+  SourceKind kind = recording_kind("video", "video:FILE[,loop=pingpong]");
   kind.open = [](const SourceSpec& spec, const OpenOptions& options) {
     return played(open_video_recording(spec.place, options), spec);
   };

@@ -146,7 +146,7 @@ TEST(Recordings, ColourAloneIsTracked) {
 
 // Steps of 1 to 2 cm and 1.6 deg within a metre, six times a Kinect's noise.
 TEST(Recordings, ANoisyCloseRangeSensorMovedFast) {
-  const auto spec = parse_source_spec("sim:near,frames=180");
+  const auto spec = parse_source_spec("sim:near,frames=300");
   for (const TrackerOptions& options : {TrackerOptions(), to_160x120()}) {
     const Outcome outcome = tracked(*spec, options, Mapping::on);
     EXPECT_EQ(outcome.lost, 0);
