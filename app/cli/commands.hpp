@@ -18,5 +18,11 @@ void add_demo_command(CLI::App& app, Task* task);
 void add_sources_command(CLI::App& app, Task* task);
 void add_export_command(CLI::App& app, Task* task);
 void add_evaluate_command(CLI::App& app, Task* task);
+void add_learn_command(CLI::App& app, Task* task);
+void add_detect_command(CLI::App& app, Task* task);
+void add_calibrate_command(CLI::App& app, Task* task);
+
+// Nouns of these verbs (verbs.cpp).
+void add_evaluate_trajectory(CLI::App& evaluate, Task* task);
 
 }  // namespace armsreach::app

@@ -43,6 +43,9 @@ int main(int argc, char** argv) {
   armsreach::app::add_sources_command(app, &task);
   armsreach::app::add_export_command(app, &task);
   armsreach::app::add_evaluate_command(app, &task);
+  armsreach::app::add_learn_command(app, &task);
+  armsreach::app::add_detect_command(app, &task);
+  armsreach::app::add_calibrate_command(app, &task);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

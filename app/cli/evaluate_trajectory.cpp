@@ -91,7 +91,7 @@ void print(const TrajectoryErrors& e) {
   std::printf("scale                %.4f\n", e.alignment.scale);
 }
 
-Status evaluate(const EvaluateOptions& options) {
+Status evaluate_files(const EvaluateOptions& options) {
   auto estimate = read_trajectory(options.estimate);
   if (!estimate) return estimate.error();
   auto truth = read_trajectory(options.truth);
@@ -114,19 +114,17 @@ Status evaluate(const EvaluateOptions& options) {
 
 }  // namespace
 
-void add_evaluate_command(CLI::App& app, Task* task) {
-  CLI::App* command = app.add_subcommand("evaluate", "measure results against the truth");
-  command->require_subcommand(1);
-  CLI::App* trajectory = command->add_subcommand(
+void add_evaluate_trajectory(CLI::App& evaluate, Task* task) {
+  CLI::App* command = evaluate.add_subcommand(
       "trajectory", "absolute and relative errors of a trajectory (TUM format)");
   auto options = std::make_shared<EvaluateOptions>();
-  trajectory->add_option("--estimate", options->estimate, "trajectory to judge")->required();
-  trajectory->add_option("--truth", options->truth, "true trajectory")->required();
-  trajectory->add_flag("--scale", options->with_scale, "align with a free scale (Sim3)");
-  trajectory->add_option("--recording", options->recording,
-                         "TUM folder: also reproject its depth 30 frames on");
-  trajectory->add_option("--json", options->json, "write the figures here");
-  trajectory->callback([task, options] { *task = [options] { return evaluate(*options); }; });
+  command->add_option("--estimate", options->estimate, "trajectory to judge")->required();
+  command->add_option("--truth", options->truth, "true trajectory")->required();
+  command->add_flag("--scale", options->with_scale, "align with a free scale (Sim3)");
+  command->add_option("--recording", options->recording,
+                      "TUM folder: also reproject its depth 30 frames on");
+  command->add_option("--json", options->json, "write the figures here");
+  command->callback([task, options] { *task = [options] { return evaluate_files(*options); }; });
 }
 
 }  // namespace armsreach::app

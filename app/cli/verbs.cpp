@@ -1,0 +1,35 @@
+// The verbs that are followed by a noun: what is evaluated, learnt, detected or calibrated.
+#include "app/cli/commands.hpp"
+
+namespace armsreach::app {
+namespace {
+
+CLI::App& verb(CLI::App& app, const char* name, const char* what) {
+  CLI::App* command = app.add_subcommand(name, what);
+  command->require_subcommand(1);
+  return *command;
+}
+
+}  // namespace
+
+void add_evaluate_command(CLI::App& app, Task* task) {
+  CLI::App& evaluate = verb(app, "evaluate", "measure results against the truth");
+  add_evaluate_trajectory(evaluate, task);
+}
+
+void add_learn_command(CLI::App& app, Task* task) {
+  CLI::App& learn = verb(app, "learn", "teach it something from examples");
+  static_cast<void>(learn), static_cast<void>(task);
+}
+
+void add_detect_command(CLI::App& app, Task* task) {
+  CLI::App& detect = verb(app, "detect", "find something in images and say where as JSON");
+  static_cast<void>(detect), static_cast<void>(task);
+}
+
+void add_calibrate_command(CLI::App& app, Task* task) {
+  CLI::App& calibrate = verb(app, "calibrate", "fit it to a camera, a user, a place");
+  static_cast<void>(calibrate), static_cast<void>(task);
+}
+
+}  // namespace armsreach::app
