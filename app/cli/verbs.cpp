@@ -29,7 +29,7 @@ void add_detect_command(CLI::App& app, Task* task) {
 
 void add_calibrate_command(CLI::App& app, Task* task) {
   CLI::App& calibrate = verb(app, "calibrate", "fit it to a camera, a user, a place");
-  static_cast<void>(calibrate), static_cast<void>(task);
+  add_calibrate_camera(calibrate, task);
 }
 
 }  // namespace armsreach::app

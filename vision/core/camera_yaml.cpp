@@ -124,6 +124,21 @@ Result<std::optional<Pose>> read_camera_from_depth(const YAML::Node& root, const
       Pose(so3_exp(Eigen::Vector3d(rotation->data())), Eigen::Vector3d(translation->data())));
 }
 
+Result<std::optional<CalibrationRecord>> read_calibration(const YAML::Node& root,
+                                                          const Reader& reader) {
+  const YAML::Node node = root["calibration"];
+  if (!node) return std::optional<CalibrationRecord>();
+  CalibrationRecord record;
+  const bool whole = node.IsMap() && node["date"] && node["date"].IsScalar() &&
+                     YAML::convert<double>::decode(node["rms"], record.rms) &&
+                     YAML::convert<int>::decode(node["images"], record.images);
+  if (!whole || !std::isfinite(record.rms)) {
+    return reader.error("calibration is not {date, rms, images}");
+  }
+  record.date = node["date"].Scalar();
+  return std::optional<CalibrationRecord>(record);
+}
+
 Result<CameraFile> read_checked(const YAML::Node& root, const std::string& where) {
   const Reader reader(root, where);
   if (!root.IsMap()) return reader.error("not a camera file");
@@ -142,6 +157,9 @@ Result<CameraFile> read_checked(const YAML::Node& root, const std::string& where
   auto camera_from_depth = read_camera_from_depth(root, reader);
   if (!camera_from_depth) return camera_from_depth.error();
   file.camera_from_depth = *camera_from_depth;
+  auto calibration = read_calibration(root, reader);
+  if (!calibration) return calibration.error();
+  file.calibration = *calibration;
   return file;
 }
 
@@ -174,6 +192,10 @@ void write_camera_yaml(std::ostream& out, const CameraFile& file) {
     const Eigen::Vector3d& t = file.camera_from_depth->translation();
     out << "camera_from_depth: {rotation_vector: [" << r.x() << ", " << r.y() << ", " << r.z()
         << "], translation: [" << t.x() << ", " << t.y() << ", " << t.z() << "]}\n";
+  }
+  if (file.calibration) {
+    out << "calibration: {date: " << file.calibration->date << ", rms: " << file.calibration->rms
+        << ", images: " << file.calibration->images << "}\n";
   }
   out.precision(precision);
 }
