@@ -25,5 +25,6 @@ void add_calibrate_command(CLI::App& app, Task* task);
 // Nouns of these verbs (verbs.cpp).
 void add_evaluate_trajectory(CLI::App& evaluate, Task* task);
 void add_calibrate_camera(CLI::App& calibrate, Task* task);
+void add_calibrate_target(CLI::App& calibrate, Task* task);
 
 }  // namespace armsreach::app

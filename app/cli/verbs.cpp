@@ -30,6 +30,7 @@ void add_detect_command(CLI::App& app, Task* task) {
 void add_calibrate_command(CLI::App& app, Task* task) {
   CLI::App& calibrate = verb(app, "calibrate", "fit it to a camera, a user, a place");
   add_calibrate_camera(calibrate, task);
+  add_calibrate_target(calibrate, task);
 }
 
 }  // namespace armsreach::app

@@ -62,5 +62,26 @@ TEST(EndToEndCalibrateCamera, WrongInputIsSaid) {
   }
 }
 
+TEST(EndToEndCalibrateTarget, ASheetAndItsDescription) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      run_armsreach({"calibrate", "target", "--size", "200x100", "--out", folder / "start.pdf"});
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_EQ(read_text(folder / "start.pdf").substr(0, 5), "%PDF-");
+  EXPECT_THAT(read_text(folder / "start.yaml"), HasSubstr("width: 0.2, height: 0.1"));
+}
+
+TEST(EndToEndCalibrateTarget, WhatCannotBePrintedIsRefused) {
+  for (const char* size : {"400x300", "5x5", "20", "-100x100", "nanxnan"}) {
+    const ProgramResult result = run_armsreach({"calibrate", "target", "--size", size});
+    EXPECT_EQ(result.exit_code, 2) << size << result.output;
+    EXPECT_THAT(result.output, HasSubstr("--size"));
+  }
+  const ProgramResult result =
+      run_armsreach({"calibrate", "target", "--out", "/no/such/folder/target.pdf"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.output, HasSubstr("/no/such/folder"));
+}
+
 }  // namespace
 }  // namespace armsreach::test
