@@ -168,7 +168,8 @@ void SoundedFilm::write() {
   encode_until(end);
   encode(nullptr);
   check(av_write_trailer(out_.get()), "finishing the film");
-  check(avio_closep(&out_->pb), "finishing the film");
+  avio_flush(out_->pb);
+  check(out_->pb->error, "finishing the film");
 }
 
 void SoundedFilm::encode_until(std::int64_t sample) {
