@@ -151,7 +151,10 @@ void SoundedFilm::open_encoder() {
 // Sound and pictures alternate in the file, so that players need not seek.
 void SoundedFilm::write() {
   std::int64_t end = samples_.count();
-  while (av_read_frame(in_.get(), packet_.get()) >= 0) {
+  for (;;) {
+    const int code = av_read_frame(in_.get(), packet_.get());
+    if (code == AVERROR_EOF) break;
+    check(code, "reading the pictures");
     if (packet_->stream_index != video_->index) {
       av_packet_unref(packet_.get());
       continue;

@@ -37,6 +37,10 @@ void Narrator::turn(Timestamp time) {
     due = announcer_.due(time);
   }
   for (const Sentence& sentence : due) say(sentence);
+  tell_of_the_voices_faults();
+}
+
+void Narrator::tell_of_the_voices_faults() {
   if (!heard_) return;
   for (const Event& event : heard_->take_events()) log_.write(event);
 }
@@ -49,9 +53,11 @@ void Narrator::say(const Sentence& sentence) {
 }
 
 Status Narrator::close() {
-  heard_.reset();
+  tell_of_the_voices_faults();
+  const Status silent = heard_ ? heard_->rest() : ok();
   if (wav_.is_open()) write_wav(wav_.stream(), track(), start_.value_or(0));
-  return wav_.close();
+  const Status written = wav_.close();
+  return written ? silent : written;
 }
 
 std::int64_t Narrator::dropped() const {

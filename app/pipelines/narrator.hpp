@@ -42,6 +42,7 @@ class Narrator {
   explicit Narrator(EventLog& log) : log_(log) {}
   void hear(const Event& event);
   void say(const Sentence& sentence);
+  void tell_of_the_voices_faults();
 
   EventLog& log_;
   std::unique_ptr<Voice> heard_;          // null: silence

@@ -2,13 +2,11 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
 #include <functional>
-#include <mutex>
+#include <memory>
 #include <string>
 #include <thread>
 
-#include "devices/speech/sentence_queue.hpp"
 #include "devices/speech/voice.hpp"
 #include "vision/core/sound.hpp"
 
@@ -20,7 +18,9 @@ class SpokenVoice final : public Voice {
   using Player = std::function<Status(const Sound&, const std::atomic<bool>& stop)>;
 
   explicit SpokenVoice(Player player);
-  ~SpokenVoice() override;  // silent at once
+  // Silent at once. A device that does not come back, as a sound server that hangs, is left behind
+  // with its thread after a second.
+  ~SpokenVoice() override;
 
   const std::string& name() const override { return name_; }
   void say(const Sentence& sentence) override;
@@ -30,18 +30,11 @@ class SpokenVoice final : public Voice {
   Events take_events() override;
 
  private:
-  void speak();
-  void note(const Status& played, Timestamp time);
+  struct State;
+  static void speak(const std::shared_ptr<State>& state);
 
   const std::string name_ = "voice";
-  Player player_;
-  mutable std::mutex mutex_;
-  std::condition_variable changed_;
-  SentenceQueue queue_;
-  Events events_;
-  bool failing_ = false;
-  bool closing_ = false;
-  std::atomic<bool> stop_ = false;
+  std::shared_ptr<State> state_;  // the thread's too: it may outlive the voice
   std::thread thread_;
 };
 

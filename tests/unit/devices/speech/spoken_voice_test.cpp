@@ -2,10 +2,13 @@
 #include "devices/speech/spoken_voice.hpp"
 
 #include <chrono>
+#include <condition_variable>
+#include <mutex>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "devices/speech/sentence_queue.hpp"
 #include "devices/speech/synthesis.hpp"
 
 namespace armsreach {
@@ -70,6 +73,21 @@ TEST(SpokenVoice, RestIsSilenceAtOnceAndTheNextSentenceIsSaidAgain) {
   voice.say({"c", "Tracking lost."});
   ASSERT_TRUE(device.wait_for(2));
   EXPECT_EQ(device.played(1), synthesised("Tracking lost.").samples);
+}
+
+TEST(SpokenVoice, ADeviceThatHangsDoesNotHoldUpTheEnd) {
+  auto hanging = std::make_shared<std::atomic<bool>>(true);
+  auto begun = std::make_shared<std::atomic<bool>>(false);
+  {
+    SpokenVoice voice([hanging, begun](const Sound&, const std::atomic<bool>&) {
+      *begun = true;
+      while (*hanging) std::this_thread::sleep_for(1ms);
+      return ok();
+    });
+    voice.say({"a", "Tracking."});
+    while (!*begun) std::this_thread::sleep_for(1ms);
+  }
+  *hanging = false;
 }
 
 TEST(SpokenVoice, TooMuchIsDroppedAndCounted) {
