@@ -8,8 +8,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/edited_recording.hpp"
 #include "tests/support/film_reader.hpp"
 #include "tests/support/program.hpp"
+#include "tests/support/recordings.hpp"
 
 namespace armsreach::test {
 namespace {
@@ -113,6 +115,25 @@ TEST(EndToEndSpeech, AWrongVoiceIsRefused) {
     EXPECT_EQ(refused.exit_code, 2) << refused.output;
     EXPECT_THAT(refused.output, HasSubstr(complaint));
   }
+}
+
+// A camera that is covered, carried half a metre on and uncovered.
+TEST(EndToEndSpeech, SaysThatTheWayIsLostAndThePlaceKnown) {
+  ARMSREACH_RECORDING_OR_SKIP(path, "rgbd/redkitchen");
+  const TemporaryFolder folder;
+  edit_recording(path, folder / "covered", [](int frame) {
+    if (frame >= 100 && frame < 130) return FrameEdit::cover;
+    return frame >= 130 && frame < 160 ? FrameEdit::leave_out : FrameEdit::keep;
+  });
+  write_text(folder / "c.yaml", "speech: {voice: '" + (folder / "speech.wav").string() + "'}\n");
+  const ProgramResult run =
+      run_armsreach({"run", "--source", "tum:" + (folder / "covered").string(), "--pace",
+                     "every-frame", "--display", "none", "--frames", "150", "--config",
+                     folder / "c.yaml", "--events", folder / "e.jsonl"});
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  std::vector<std::string> said;
+  for (const json& speech : events_of(folder, "speech")) said.push_back(speech["text"]);
+  EXPECT_THAT(said, ::testing::ElementsAre("Tracking.", "Tracking lost.", "Place known."));
 }
 
 // Without ALSA's configuration there is no sound device, whatever this machine has.
