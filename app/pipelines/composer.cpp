@@ -137,7 +137,8 @@ void Composer::add_objects(const WorldView* world, render::Scene* scene) {
 void Composer::add_messages(Timestamp now, render::Scene* scene) {
   for (const Event& event : log_.recent()) {
     // What is said is about an event that is shown itself.
-    if (now - event.time > kMessageTime || std::holds_alternative<SpeechEvent>(event.body)) continue;
+    if (now - event.time > kMessageTime || std::holds_alternative<SpeechEvent>(event.body))
+      continue;
     scene->messages.push_back({severity_of(event), std::visit(BodyToText{}, event.body)});
   }
 }
