@@ -9,10 +9,12 @@
 
 #include "app/cli/rig_options.hpp"
 #include "app/cli/run_options.hpp"
+#include "app/pipelines/narrator.hpp"
 #include "app/pipelines/presenter.hpp"
 #include "app/pipelines/vision_stages.hpp"
 #include "app/pipelines/workspace.hpp"
 #include "app/runtime/event_log.hpp"
+#include "devices/speech/spoken_voice.hpp"
 
 namespace armsreach::app {
 namespace {
@@ -130,8 +132,15 @@ Status run(const RunOptions& options, const Config& config) {
 
   EventLog log;
   if (auto status = log.open(options.events); !status) return status;
-  auto presenter = Presenter::make(presenter_options(options, config, *sensor));
+  auto narrator = Narrator::make(log, config.speech, !options.record.empty());
+  if (!narrator) return narrator.error();
+  PresenterOptions presenting = presenter_options(options, config, *sensor);
+  presenting.film_sounds = [&narrator] { return (*narrator)->track(); };
+  auto presenter = Presenter::make(presenting);
   if (!presenter) return presenter.error();
+  if (config.speech.voice == "auto" && pace == Pace::live && (*presenter)->interactive()) {
+    (*narrator)->speak_aloud(make_spoken_voice());
+  }
 
   tell_fallbacks(config, *world, *sensor, log);
 
@@ -143,9 +152,12 @@ Status run(const RunOptions& options, const Config& config) {
   workspace.stats = options.stats;
   workspace.map = options.map;
   workspace.session = options.session;
+  workspace.narrator = narrator->get();
   auto summary = run_workspace(**rig, **presenter, log, config, workspace, *std::move(world));
+  const Status spoken = (*narrator)->close();
   const Status logged = log.close();
   if (!summary) return summary.error();
+  if (!spoken) return spoken;
   if (!logged) return logged;
   print_summary(*summary);
   return ok();

@@ -231,7 +231,8 @@ void Workspace::join_composing(const std::vector<SavedObject>& objects) {
 void Workspace::join_drawing() {
   drawing_ = std::make_unique<DrawNode>(
       presenter_, journal_, log_, wiring_.pace,
-      DrawNode::Connections{scenes_, to_journal_, user_.connection()}, [this] { capture_.stop(); });
+      DrawNode::Connections{scenes_, to_journal_, user_.connection()}, [this] { capture_.stop(); },
+      options_.narrator);
   drawing_->at_end([this] {
     scenes_->close();
     to_journal_->close();
@@ -337,6 +338,7 @@ Status Workspace::write_stats(const RunSummary& result) {
         {"p99", s.processing.percentile(0.99)}};
   }
   const LatencyHistogram& latency = drawing_->latency();
+  const Narrator* narrator = options_.narrator;
   const nlohmann::json stats = {{"frames", result.frames},
                                 {"tracked_frames", result.tracked_frames},
                                 {"seconds", result.seconds},
@@ -346,6 +348,9 @@ Status Workspace::write_stats(const RunSummary& result) {
                                   {"p95", latency.percentile(0.95)},
                                   {"p99", latency.percentile(0.99)}}},
                                 {"film_frames_dropped", presenter_.dropped_film_frames()},
+                                {"speech",
+                                 {{"said", narrator ? narrator->said() : 0},
+                                  {"dropped", narrator ? narrator->dropped() : 0}}},
                                 {"peak_memory_mb", peak_memory_mb()},
                                 {"stages", stages}};
   return write_file(options_.stats, [&](std::ostream& out) { out << stats.dump(2) << "\n"; });

@@ -116,6 +116,15 @@ void read_mapping(Section section, MappingConfig* mapping) {
   section.refuse_unknown();
 }
 
+void read_speech(Section section, SpeechConfig* speech) {
+  section.read<std::string>("voice", &speech->voice, "auto, off or the name of a .wav file",
+                            [](const std::string& voice) {
+                              return voice == "auto" || voice == "off" ||
+                                     (voice.size() > 4 && voice.ends_with(".wav"));
+                            });
+  section.refuse_unknown();
+}
+
 void read_size(Section& root, Config* config) {
   if (!root.child("size")) return;
   double width = 0;
@@ -140,6 +149,7 @@ void read_root(Section root, Config* config) {
                  [](const int& n) { return n >= 1 && n <= 30; });
   read_tracking(root.section("tracking"), &config->tracking);
   read_mapping(root.section("mapping"), &config->mapping);
+  read_speech(root.section("speech"), &config->speech);
   const YAML::Node actions = root.child("actions");
   if (actions && !actions.IsSequence()) root.complain("'actions' must be a list");
   if (actions && actions.IsSequence()) {

@@ -33,6 +33,11 @@ struct MappingConfig {
   double resolution = 0.01;  // m
 };
 
+struct SpeechConfig {
+  // auto: aloud when live in a window, and on films; off; or the name of a WAV file to speak into.
+  std::string voice = "auto";
+};
+
 struct Config {
   std::string layout = "wearer";  // or "operator"
   int width = 0;                  // px of the picture; 0: the video's, or 1280x720 for an operator
@@ -41,6 +46,7 @@ struct Config {
   int lag = 3;          // frames between a frame and the map it is tracked against, every-frame
   TrackingConfig tracking;
   MappingConfig mapping;
+  SpeechConfig speech;
   std::vector<Action> actions;
 };
 

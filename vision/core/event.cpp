@@ -34,6 +34,7 @@ struct BodyToJson {
             {"message", e.message},
             {"remedy", e.remedy}};
   }
+  json operator()(const SpeechEvent& e) const { return {{"type", "speech"}, {"text", e.text}}; }
 };
 
 }  // namespace

@@ -46,9 +46,14 @@ struct FaultEvent {
   std::string remedy;
 };
 
+// What the program said; what it was about is an event of its own.
+struct SpeechEvent {
+  std::string text;
+};
+
 struct Event {
   Timestamp time;
-  std::variant<TrackingEvent, InsertEvent, MoveEvent, DeleteEvent, FaultEvent> body;
+  std::variant<TrackingEvent, InsertEvent, MoveEvent, DeleteEvent, FaultEvent, SpeechEvent> body;
 };
 using Events = std::vector<Event>;
 
