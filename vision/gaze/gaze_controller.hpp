@@ -29,7 +29,7 @@ struct GazeSettings {
   PointNoise fixated{0.002, 4, 0.3};
   // s beyond the gimbal's lag for which the target is predicted: the axes take about this long for
   // the way between two commands.
-  double lead = 0.03;
+  double lead = 0.025;
   double arrived = 0.0087;                // rad, off the target when a saccade has ended
   Eigen::Vector3d up_in_mount{0, -1, 0};  // while no pose is known
   Eigen::Vector3d up_in_world{0, 0, 1};   // once there are poses
