@@ -19,8 +19,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto kBetweenCommands = 20ms;  // a servo's own period
 constexpr auto kBetweenChecks = 1s;
-constexpr auto kBetweenTries = 500ms;  // to find a device that has gone
-constexpr Timestamp kSampled = 5'000'000;
+constexpr auto kBetweenTries = 500ms;      // to find a device that has gone
+constexpr Timestamp kSampled = 2'000'000;  // ns: a frame just taken is covered
 constexpr Timestamp kRemembered = 3'000'000'000;
 
 Timestamp time_now() { return std::chrono::nanoseconds(Clock::now().time_since_epoch()).count(); }

@@ -109,9 +109,9 @@ DeviceControl open_device_file(const std::string& path) {
       [owned](unsigned long request, void* argument) { return ioctl(*owned, request, argument); };
 }
 
-Result<std::shared_ptr<Gimbal>> open_uvc_gimbal(const std::string& device, const std::string& name,
+Result<std::shared_ptr<Gimbal>> open_uvc_gimbal(const UvcMotors& motors, const std::string& name,
                                                 const GimbalModel& model, const OpenDevice& open) {
-  auto driver = std::make_unique<UvcDriver>(device, open);
+  auto driver = std::make_unique<UvcDriver>(motors.device, open);
   if (auto status = driver->connect({}); !status) {
     Error error = status.error();
     error.kind = Error::Kind::device;

@@ -18,8 +18,12 @@ using DeviceControl = std::function<int(unsigned long request, void* argument)>;
 using OpenDevice = std::function<DeviceControl(const std::string& path)>;
 DeviceControl open_device_file(const std::string& path);
 
+struct UvcMotors {
+  std::string device = "/dev/video0";
+};
+
 // The camera's own range narrows the limits of `model`; it has no roll.
-Result<std::shared_ptr<Gimbal>> open_uvc_gimbal(const std::string& device, const std::string& name,
+Result<std::shared_ptr<Gimbal>> open_uvc_gimbal(const UvcMotors& motors, const std::string& name,
                                                 const GimbalModel& model,
                                                 const OpenDevice& open = open_device_file);
 

@@ -120,6 +120,7 @@ TEST_F(FirmataGimbal, StatesFollowTheModel) {
   const auto gimbal = open();
   ASSERT_TRUE(gimbal);
   EXPECT_FALSE(gimbal->state_at(time_now() + 1'000'000'000)) << "the future is not measured";
+  std::this_thread::sleep_for(100ms);
   ASSERT_TRUE(gimbal->command({time_now(), {0.5, 0, 0}}).ok());
   ASSERT_TRUE(peer.wait_for([](const auto& seen) { return pan_pulse(seen) == 1786; }));
   const Timestamp sent = time_now();

@@ -73,7 +73,7 @@ class MotorCamera {
 
 TEST(UvcGimbal, AnglesBecomeArcSecondsInTheCamerasSteps) {
   MotorCamera camera;
-  const auto gimbal = open_uvc_gimbal("/dev/video0", "main", {}, camera.opener());
+  const auto gimbal = open_uvc_gimbal({}, "main", {}, camera.opener());
   ASSERT_TRUE(gimbal) << gimbal.error().message();
   ASSERT_TRUE((*gimbal)->command({0, Eigen::Vector3d(40.4, -12.6, 5) * kDegree}).ok());
   EXPECT_TRUE(camera.stands_at(40, -13));
@@ -81,7 +81,7 @@ TEST(UvcGimbal, AnglesBecomeArcSecondsInTheCamerasSteps) {
 
 TEST(UvcGimbal, TheCamerasRangeNarrowsTheLimits) {
   MotorCamera camera;
-  const auto gimbal = open_uvc_gimbal("/dev/video0", "main", {}, camera.opener());
+  const auto gimbal = open_uvc_gimbal({}, "main", {}, camera.opener());
   ASSERT_TRUE(gimbal);
   const GimbalModel& model = (*gimbal)->model();
   EXPECT_NEAR(model.upper[0], 1.57, 1e-9) << "the model's own is narrower";
@@ -92,7 +92,7 @@ TEST(UvcGimbal, TheCamerasRangeNarrowsTheLimits) {
 TEST(UvcGimbal, RestsInTheEnd) {
   MotorCamera camera;
   {
-    const auto gimbal = open_uvc_gimbal("/dev/video0", "main", {}, camera.opener());
+    const auto gimbal = open_uvc_gimbal({}, "main", {}, camera.opener());
     ASSERT_TRUE(gimbal);
     ASSERT_TRUE((*gimbal)->command({0, {0.5, 0, 0}}).ok());
     ASSERT_TRUE(camera.stands_at(29, 0));
@@ -103,10 +103,10 @@ TEST(UvcGimbal, RestsInTheEnd) {
 TEST(UvcGimbal, WithoutMotorsOrDeviceItIsAnErrorWithARemedy) {
   MotorCamera camera;
   camera.has_motors = false;
-  const auto still = open_uvc_gimbal("/dev/video0", "main", {}, camera.opener());
+  const auto still = open_uvc_gimbal({}, "main", {}, camera.opener());
   ASSERT_FALSE(still);
   EXPECT_NE(still.error().remedy.find("v4l2-ctl"), std::string::npos);
-  const auto none = open_uvc_gimbal("/dev/no-such-camera", "main", {});
+  const auto none = open_uvc_gimbal({"/dev/no-such-camera"}, "main", {});
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().kind, Error::Kind::device);
   EXPECT_EQ(none.error().where, "/dev/no-such-camera");
@@ -114,7 +114,7 @@ TEST(UvcGimbal, WithoutMotorsOrDeviceItIsAnErrorWithARemedy) {
 
 TEST(UvcGimbal, UnpluggedItIsAFaultAndFoundAgain) {
   MotorCamera camera;
-  const auto gimbal = open_uvc_gimbal("/dev/video0", "main", {}, camera.opener());
+  const auto gimbal = open_uvc_gimbal({}, "main", {}, camera.opener());
   ASSERT_TRUE(gimbal);
   camera.unplug(true);
   const auto said = [&](const std::string& text) {
