@@ -24,5 +24,6 @@ void add_calibrate_command(CLI::App& app, Task* task);
 
 // Nouns of these verbs (verbs.cpp).
 void add_evaluate_trajectory(CLI::App& evaluate, Task* task);
+void add_evaluate_gaze(CLI::App& evaluate, Task* task);
 
 }  // namespace armsreach::app
