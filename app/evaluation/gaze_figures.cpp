@@ -11,12 +11,12 @@ namespace armsreach::app {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kSettling = 1;           // s, at the start
-constexpr double kWithin = 1 * kDegree;   // has arrived
-constexpr double kSide = 0.5 * kDegree;   // is on one side
-constexpr double kLeap = 5 * kDegree;     // between two frames
-constexpr double kStill = 0.5 * kDegree;  // of a target that stands, in the mount
-constexpr double kWatched = 1;            // s after a leap
+constexpr double kSettling = 1;          // s, at the start
+constexpr double kWithin = 1 * kDegree;  // has arrived
+constexpr double kSide = 0.5 * kDegree;  // is on one side
+constexpr double kLeap = 5 * kDegree;    // between two frames
+constexpr double kStill = 1 * kDegree;   // of a target that stands, in the mount
+constexpr double kWatched = 1;           // s after a leap
 
 double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));

@@ -90,11 +90,9 @@ class Loop {
     input.now = frame.time;
     const Pose& world_from_camera = frame.truth->world_from_camera;
     const auto pixel = project(camera_, world_from_camera.inverse() * target);
-    if (trial_.mode != GazeMode::follow) {
-      input.pose = CameraPoseSeen{frame.time, world_from_camera};
-    } else if (pixel && camera_.contains(*pixel)) {
+    input.pose = CameraPoseSeen{frame.time, world_from_camera};
+    if (pixel && camera_.contains(*pixel))
       input.target = TargetSeen{frame.time, *pixel, std::nullopt};
-    }
     return input;
   }
 

@@ -14,11 +14,11 @@
 namespace armsreach::app {
 
 struct GazeTrial {
-  GazeMode mode = GazeMode::follow;  // follow, saccade or fixate
+  GazeMode mode{GazeMode::follow};  // follow, saccade or fixate
   // Names of things or hands. Follow and fixate take the first; saccades go round all of them.
-  std::vector<std::string> targets;
-  double delay = 0.1;     // s, from a frame to what is found in it
-  double interval = 1.2;  // s, from one saccade to the next
+  std::vector<std::string> targets{};
+  double delay{0.1};     // s, from a frame to what is found in it
+  double interval{1.2};  // s, from one saccade to the next
 };
 
 // The truth at one frame.
