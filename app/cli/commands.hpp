@@ -26,5 +26,6 @@ void add_calibrate_command(CLI::App& app, Task* task);
 void add_evaluate_trajectory(CLI::App& evaluate, Task* task);
 void add_calibrate_camera(CLI::App& calibrate, Task* task);
 void add_calibrate_target(CLI::App& calibrate, Task* task);
+void add_evaluate_gaze(CLI::App& evaluate, Task* task);
 
 }  // namespace armsreach::app

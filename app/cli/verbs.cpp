@@ -15,6 +15,7 @@ CLI::App& verb(CLI::App& app, const char* name, const char* what) {
 void add_evaluate_command(CLI::App& app, Task* task) {
   CLI::App& evaluate = verb(app, "evaluate", "measure results against the truth");
   add_evaluate_trajectory(evaluate, task);
+  add_evaluate_gaze(evaluate, task);
 }
 
 void add_learn_command(CLI::App& app, Task* task) {

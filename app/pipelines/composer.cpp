@@ -36,6 +36,9 @@ struct BodyToText {
   std::string operator()(const InsertEvent& e) const { return e.object + " inserted"; }
   std::string operator()(const MoveEvent& e) const { return e.object + " moved"; }
   std::string operator()(const DeleteEvent& e) const { return e.object + " deleted"; }
+  std::string operator()(const GazeEvent& e) const {
+    return std::string("gaze: ").append(armsreach::name(e.mode)).append(" ").append(e.target);
+  }
   std::string operator()(const FaultEvent& e) const { return e.message; }
   std::string operator()(const SpeechEvent& e) const { return e.text; }
 };

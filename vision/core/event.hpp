@@ -40,6 +40,16 @@ struct DeleteEvent {
   Pose world_from_object;  // where it last stood
 };
 
+enum class GazeMode { follow, saccade, fixate, rest };
+std::string_view name(GazeMode mode);
+
+// The camera on its gimbal begins to follow, to leap, to hold a point, or rests.
+struct GazeEvent {
+  GazeMode mode;
+  Eigen::Vector3d angles;  // pan, tilt and roll that it makes for; rad
+  std::string target;      // what it looks at; may be empty
+};
+
 struct FaultEvent {
   std::string component;
   std::string message;
@@ -54,6 +64,7 @@ struct SpeechEvent {
 struct Event {
   Timestamp time;
   std::variant<TrackingEvent, InsertEvent, MoveEvent, DeleteEvent, FaultEvent, SpeechEvent> body;
+  std::variant<TrackingEvent, InsertEvent, MoveEvent, DeleteEvent, GazeEvent, FaultEvent> body;
 };
 using Events = std::vector<Event>;
 
