@@ -1,0 +1,30 @@
+// Classes of colours told apart by Bayes' rule with uniform priors, winner takes all [wearable
+// paper, skin detection]: skin against background, or any number of named classes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <opencv2/core/matx.hpp>
+
+#include "vision/gesture/color_histogram.hpp"
+
+namespace armsreach::gesture {
+
+struct ColorClass {
+  std::string name;
+  ColorHistogram pixels;
+};
+
+struct ColorModel {
+  ColorHistogram background;
+  std::vector<ColorClass> classes;
+  bool with_luma = false;   // white, grey and black things differ in nothing else
+  cv::Vec3f peak{0, 0, 0};  // M_T: where each channel of the first class peaks, B, G, R; 0 unknown
+  cv::Vec3f balance{1, 1, 1};  // c' = balance * c, each channel, before anything else
+};
+
+// Index of the class, or nothing where there is none of that name.
+int class_named(const ColorModel& model, const std::string& name);  // -1: none
+
+}  // namespace armsreach::gesture
