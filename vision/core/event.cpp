@@ -38,6 +38,10 @@ struct BodyToJson {
   json operator()(const InsertEvent& e) const { return json_from_object("insert", e); }
   json operator()(const MoveEvent& e) const { return json_from_object("move", e); }
   json operator()(const DeleteEvent& e) const { return json_from_object("delete", e); }
+  json operator()(const GazeEvent& e) const {
+    return {{"type", "gaze"},      {"mode", name(e.mode)}, {"pan", e.angles[0]},
+            {"tilt", e.angles[1]}, {"roll", e.angles[2]},  {"target", e.target}};
+  }
   json operator()(const FaultEvent& e) const {
     return {{"type", "fault"},
             {"component", e.component},
@@ -86,6 +90,20 @@ std::string_view name(TrackingState state) {
       return "relocalised";
     case TrackingState::untracked:
       return "untracked";
+  }
+  return "";
+}
+
+std::string_view name(GazeMode mode) {
+  switch (mode) {
+    case GazeMode::follow:
+      return "follow";
+    case GazeMode::saccade:
+      return "saccade";
+    case GazeMode::fixate:
+      return "fixate";
+    case GazeMode::rest:
+      return "rest";
   }
   return "";
 }

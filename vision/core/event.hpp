@@ -77,6 +77,16 @@ struct RejectEvent {
   Eigen::Vector3d point_in_world;
 };
 
+enum class GazeMode { follow, saccade, fixate, rest };
+std::string_view name(GazeMode mode);
+
+// The camera on its gimbal begins to follow, to leap, to hold a point, or rests.
+struct GazeEvent {
+  GazeMode mode;
+  Eigen::Vector3d angles;  // pan, tilt and roll that it makes for; rad
+  std::string target;      // what it looks at; may be empty
+};
+
 struct FaultEvent {
   std::string component;
   std::string message;
@@ -85,8 +95,8 @@ struct FaultEvent {
 
 struct Event {
   Timestamp time;
-  std::variant<TrackingEvent, InsertEvent, MoveEvent, DeleteEvent, FaultEvent, GestureEvent,
-               HighlightEvent, LabelEvent, AcceptEvent, RejectEvent>
+  std::variant<TrackingEvent, InsertEvent, MoveEvent, DeleteEvent, GestureEvent, HighlightEvent,
+               LabelEvent, AcceptEvent, RejectEvent, GazeEvent, FaultEvent>
       body;
 };
 using Events = std::vector<Event>;
