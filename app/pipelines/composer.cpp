@@ -37,6 +37,7 @@ struct BodyToText {
   std::string operator()(const MoveEvent& e) const { return e.object + " moved"; }
   std::string operator()(const DeleteEvent& e) const { return e.object + " deleted"; }
   std::string operator()(const FaultEvent& e) const { return e.message; }
+  std::string operator()(const SpeechEvent& e) const { return e.text; }
 };
 
 }  // namespace
@@ -135,7 +136,8 @@ void Composer::add_objects(const WorldView* world, render::Scene* scene) {
 
 void Composer::add_messages(Timestamp now, render::Scene* scene) {
   for (const Event& event : log_.recent()) {
-    if (now - event.time > kMessageTime) continue;
+    // What is said is about an event that is shown itself.
+    if (now - event.time > kMessageTime || std::holds_alternative<SpeechEvent>(event.body)) continue;
     scene->messages.push_back({severity_of(event), std::visit(BodyToText{}, event.body)});
   }
 }

@@ -74,6 +74,7 @@ struct BodyToJson {
             {"anchor", e.anchor},
             {"point_in_world", json_from_point(e.point_in_world)}};
   }
+  json operator()(const SpeechEvent& e) const { return {{"type", "speech"}, {"text", e.text}}; }
 };
 
 }  // namespace

@@ -93,10 +93,15 @@ struct FaultEvent {
   std::string remedy;
 };
 
+// What the program said; what it was about is an event of its own.
+struct SpeechEvent {
+  std::string text;
+};
+
 struct Event {
   Timestamp time;
   std::variant<TrackingEvent, InsertEvent, MoveEvent, DeleteEvent, GestureEvent, HighlightEvent,
-               LabelEvent, AcceptEvent, RejectEvent, GazeEvent, FaultEvent>
+               LabelEvent, AcceptEvent, RejectEvent, GazeEvent, FaultEvent, SpeechEvent>
       body;
 };
 using Events = std::vector<Event>;
