@@ -97,7 +97,6 @@ void read_gaze(YamlSection section, GazeConfig* gaze) {
 }
 
 void read_show(YamlSection section, ShowConfig* show) {
-  section.read<bool>("outline", &show->outline, "true or false");
   section.read<bool>("rings", &show->rings, "true or false");
   section.refuse_unknown();
 }

@@ -59,8 +59,7 @@ struct GazeConfig {
 };
 
 struct ShowConfig {
-  bool outline = true;  // of the wearer's skin
-  bool rings = false;   // of the hand detector
+  bool rings = false;  // that the hand detector looks at
 };
 
 struct Config {

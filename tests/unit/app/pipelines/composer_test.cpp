@@ -25,7 +25,7 @@ TrackedFramePtr tracked(std::int64_t index, TrackingState state = TrackingState:
 
 Composer composer(const EventLog& log, Placement placement = {}) {
   return Composer(
-      log, std::move(placement), [] { return std::vector<render::StageRow>(); },
+      log, std::move(placement), HandInteraction("teapot"), [] { return std::vector<render::StageRow>(); },
       [] { return 0.0; });
 }
 
