@@ -10,10 +10,12 @@
 #include "app/cli/rig_options.hpp"
 #include "app/cli/run_options.hpp"
 #include "app/pipelines/hands_setup.hpp"
+#include "app/pipelines/narrator.hpp"
 #include "app/pipelines/pipeline.hpp"
 #include "app/pipelines/presenter.hpp"
 #include "app/pipelines/vision_stages.hpp"
 #include "app/runtime/event_log.hpp"
+#include "devices/speech/spoken_voice.hpp"
 
 namespace armsreach::app {
 namespace {
@@ -157,8 +159,15 @@ Status run(const RunOptions& options, const Config& config) {
 
   EventLog log;
   if (auto status = log.open(options.events); !status) return status;
-  auto presenter = Presenter::make(presenter_options(options, config, *sensor));
+  auto narrator = Narrator::make(log, config.speech, !options.record.empty());
+  if (!narrator) return narrator.error();
+  PresenterOptions presenting = presenter_options(options, config, *sensor);
+  presenting.film_sounds = [&narrator] { return (*narrator)->track(); };
+  auto presenter = Presenter::make(presenting);
   if (!presenter) return presenter.error();
+  if (config.speech.voice == "auto" && pace == Pace::live && (*presenter)->interactive()) {
+    (*narrator)->speak_aloud(make_spoken_voice());
+  }
 
   tell_fallbacks(config, *world, *sensor, workspace, log);
 
@@ -170,9 +179,12 @@ Status run(const RunOptions& options, const Config& config) {
   pipeline.stats = options.stats;
   pipeline.map = options.map;
   pipeline.session = options.session;
+  pipeline.narrator = narrator->get();
   auto summary = run_pipeline(**rig, **presenter, log, config, pipeline, *std::move(world));
+  const Status spoken = (*narrator)->close();
   const Status logged = log.close();
   if (!summary) return summary.error();
+  if (!spoken) return spoken;
   if (!logged) return logged;
   print_summary(*summary, workspace);
   return ok();

@@ -176,7 +176,8 @@ void Pipeline::join_composing(const std::vector<SavedObject>& objects) {
 void Pipeline::join_drawing() {
   drawing_ = std::make_unique<DrawNode>(
       presenter_, journal_, log_, context_.wiring.pace,
-      DrawNode::Connections{scenes_, to_journal_, user_.connection()}, [this] { capture_.stop(); });
+      DrawNode::Connections{scenes_, to_journal_, user_.connection()}, [this] { capture_.stop(); },
+      options_.narrator);
   drawing_->at_end([this] {
     scenes_->close();
     to_journal_->close();
@@ -276,6 +277,7 @@ Status Pipeline::write_stats(const RunSummary& result) {
         {"p99", s.processing.percentile(0.99)}};
   }
   const LatencyHistogram& latency = drawing_->latency();
+  const Narrator* narrator = options_.narrator;
   const nlohmann::json stats = {{"frames", result.frames},
                                 {"tracked_frames", result.tracked_frames},
                                 {"seconds", result.seconds},
@@ -285,6 +287,9 @@ Status Pipeline::write_stats(const RunSummary& result) {
                                   {"p95", latency.percentile(0.95)},
                                   {"p99", latency.percentile(0.99)}}},
                                 {"film_frames_dropped", presenter_.dropped_film_frames()},
+                                {"speech",
+                                 {{"said", narrator ? narrator->said() : 0},
+                                  {"dropped", narrator ? narrator->dropped() : 0}}},
                                 {"peak_memory_mb", peak_memory_mb()},
                                 {"stages", stages}};
   return write_file(options_.stats, [&](std::ostream& out) { out << stats.dump(2) << "\n"; });

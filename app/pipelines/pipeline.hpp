@@ -7,6 +7,7 @@
 #include <string>
 
 #include "app/pipelines/hands_stage.hpp"
+#include "app/pipelines/narrator.hpp"
 #include "app/pipelines/presenter.hpp"
 #include "app/runtime/event_log.hpp"
 #include "app/runtime/wiring.hpp"
@@ -25,8 +26,9 @@ struct PipelineOptions {
   std::optional<std::int64_t> frames;
   std::string trajectory;  // files to write, or ""
   std::string stats;
-  std::string map;      // file to save the map in, or ""
-  std::string session;  // folder to save the map and all that belongs to it in, or ""
+  std::string map;               // file to save the map in, or ""
+  std::string session;           // folder to save the map and all that belongs to it in, or ""
+  Narrator* narrator = nullptr;  // says what happens
 };
 
 // What a run came to, also written as JSON with `stats`.

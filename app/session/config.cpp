@@ -101,6 +101,15 @@ void read_show(YamlSection section, ShowConfig* show) {
   section.refuse_unknown();
 }
 
+void read_speech(YamlSection section, SpeechConfig* speech) {
+  section.read<std::string>("voice", &speech->voice, "auto, off or the name of a .wav file",
+                            [](const std::string& voice) {
+                              return voice == "auto" || voice == "off" ||
+                                     (voice.size() > 4 && voice.ends_with(".wav"));
+                            });
+  section.refuse_unknown();
+}
+
 void read_size(YamlSection& root, Config* config) {
   if (!root.child("size")) return;
   double width = 0;
@@ -128,6 +137,7 @@ void read_root(YamlSection root, Config* config) {
   read_gesture(root.section("gesture"), &config->gesture);
   read_gaze(root.section("gaze"), &config->gaze);
   read_show(root.section("show"), &config->show);
+  read_speech(root.section("speech"), &config->speech);
   const YAML::Node actions = root.child("actions");
   if (actions && !actions.IsSequence()) root.complain("'actions' must be a list");
   if (actions && actions.IsSequence()) {

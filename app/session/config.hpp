@@ -54,12 +54,16 @@ struct GestureConfig {
 
 struct GazeConfig {
   std::string mode = "follow";  // or "rest"
-  std::string target =
-      "hand";  // hand, hands (their midpoint), grasp (where it points), colour:NAME
+  std::string target = "hand";  // or hands (their midpoint), grasp (what it points at), colour:NAME
 };
 
 struct ShowConfig {
   bool rings = false;  // that the hand detector looks at
+};
+
+struct SpeechConfig {
+  // auto: aloud when live in a window, and on films; off; or the name of a WAV file to speak into.
+  std::string voice = "auto";
 };
 
 struct Config {
@@ -73,6 +77,7 @@ struct Config {
   GestureConfig gesture;
   GazeConfig gaze;
   ShowConfig show;
+  SpeechConfig speech;
   std::vector<Action> actions;
 };
 

@@ -37,6 +37,16 @@ TEST(Config, ReadsWhatItDocuments) {
   EXPECT_EQ(config->actions[0].insert, "teapot");
 }
 
+TEST(Config, AVoiceIsAutoOffOrAWavFile) {
+  EXPECT_EQ(read("")->speech.voice, "auto");
+  EXPECT_EQ(read("speech: {voice: off}")->speech.voice, "off");
+  EXPECT_EQ(read("speech: {voice: out/what-was-said.wav}")->speech.voice, "out/what-was-said.wav");
+  for (const char* text : {"speech: {voice: loud}", "speech: {voice: .wav}", "speech: {voice: ''}",
+                           "speech: {voices: auto}", "speech: auto"}) {
+    EXPECT_FALSE(read(text)) << text;
+  }
+}
+
 TEST(Config, RefusesByName) {
   const std::vector<std::pair<std::string, std::string>> broken = {
       {"mappings: {enabled: true}", "unknown key 'mappings'"},
