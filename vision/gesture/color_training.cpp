@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
+#include <numeric>
 
 #include "vision/gesture/color_histogram.hpp"
 
@@ -42,7 +44,7 @@ int read_level(const char*& text) {
 void ColorExamples::add(const cv::Vec3b& bgr, bool is_inside) {
   static const ColorProjection projection;
   (is_inside ? inside : outside).add(projection(bgr));
-  for (int i = 0; is_inside && i < 3; ++i) ++channels[i][bgr[i] / 4];
+  for (int i = 0; is_inside && i < 3; ++i) ++channels[i][bgr[i]];
 }
 
 Status add_examples(const cv::Mat& bgr, const cv::Mat& mask, const std::string& where,
@@ -88,14 +90,16 @@ Status add_pixel_list(std::istream& in, const std::string& where, ColorExamples*
   return ok();
 }
 
-cv::Vec3f peak_of(const ColorExamples& examples) {
-  cv::Vec3f peak;
+cv::Vec3f level_of(const ColorExamples& examples) {
+  cv::Vec3f level;
   for (int i = 0; i < 3; ++i) {
-    const auto& levels = examples.channels[i];
-    const auto highest = std::max_element(levels.begin(), levels.end());
-    peak[i] = 4.0F * static_cast<float>(highest - levels.begin()) + 2.0F;
+    const auto& counts = examples.channels[i];
+    double left = std::accumulate(counts.begin(), counts.end(), 0.0) / 2;
+    std::size_t middle = 0;
+    while (middle + 1 < counts.size() && (left -= counts[middle]) > 0) ++middle;
+    level[i] = static_cast<float>(middle) + 0.5F;
   }
-  return peak;
+  return level;
 }
 
 Result<ColorModel> general_skin_model(const ColorExamples& examples, const std::string& where) {
@@ -103,7 +107,7 @@ Result<ColorModel> general_skin_model(const ColorExamples& examples, const std::
   ColorModel model;
   model.background = spread(examples.outside, kGeneralSpread);
   model.classes.push_back({kSkin, spread(examples.inside, kGeneralSpread)});
-  model.peak = peak_of(examples);
+  model.level = level_of(examples);
   return model;
 }
 
@@ -114,17 +118,21 @@ Result<ColorModel> fitted_skin_model(const ColorModel& general, const ColorExamp
   ColorHistogram& skin = model.classes[std::max(0, class_named(model, kSkin))].pixels;
   skin = blend(skin, examples.inside, kFittedWeight);
   model.background = blend(model.background, examples.outside, kFittedWeight);
-  model.peak = peak_of(examples);
+  model.level = level_of(examples);
   return model;
 }
 
-ColorModel balanced(const ColorModel& model, const cv::Vec3f& peak) {
-  constexpr float kMost = 4;  // beyond that the view was not of skin
+ColorModel balanced(const ColorModel& model, const cv::Vec3f& level) {
+  constexpr float kMost = 2;  // of one channel against the others: beyond that it was not skin
   ColorModel fitted = model;
+  float product = 1;
   for (int i = 0; i < 3; ++i) {
-    if (model.peak[i] > 0 && peak[i] > 0) {
-      fitted.balance[i] = std::clamp(model.peak[i] / peak[i], 1 / kMost, kMost);
-    }
+    if (model.level[i] <= 0 || level[i] <= 0) return model;
+    fitted.balance[i] = model.level[i] / level[i];
+    product *= fitted.balance[i];
+  }
+  for (float& gain : fitted.balance.val) {
+    gain = std::clamp(gain / std::cbrt(product), 1 / kMost, kMost);
   }
   return fitted;
 }

@@ -1,6 +1,7 @@
 // Colour models from examples: images with masks, lists of pixels.
 #pragma once
 
+#include <array>
 #include <istream>
 #include <string>
 
@@ -14,8 +15,8 @@ namespace armsreach::gesture {
 // Colours of one class and of everything else, as they are counted.
 struct ColorExamples {
   ColorHistogram inside, outside;
-  // Each channel's own histogram inside, B G R, in steps of 4 levels: for colour balance.
-  std::array<std::array<double, 64>, 3> channels{};
+  // Each channel's own histogram inside, B G R: for colour balance.
+  std::array<std::array<double, 256>, 3> channels{};
 
   void add(const cv::Vec3b& bgr, bool is_inside);
 };
@@ -29,8 +30,9 @@ Status add_examples(const cv::Mat& bgr, const cv::Mat& mask, const std::string& 
 // Skin Segmentation set). A first line that does not begin with a digit is a heading.
 Status add_pixel_list(std::istream& in, const std::string& where, ColorExamples* examples);
 
-// M or M_T: the level at which each channel peaks inside, B G R.
-cv::Vec3f peak_of(const ColorExamples& examples);
+// M or M_T: the median of each channel inside, B G R. (The paper takes the channel's peak; on the
+// broad, flat histograms of real views that jumps about, and balancing by it does harm.)
+cv::Vec3f level_of(const ColorExamples& examples);
 
 // Skin against background from examples of many people: spread, since others differ.
 Result<ColorModel> general_skin_model(const ColorExamples& examples, const std::string& where);
@@ -39,8 +41,10 @@ Result<ColorModel> general_skin_model(const ColorExamples& examples, const std::
 Result<ColorModel> fitted_skin_model(const ColorModel& general, const ColorExamples& examples,
                                      const std::string& where);
 
-// The model balanced for a view of the user's skin, c' = (M_T / M) c [wearable paper].
-ColorModel balanced(const ColorModel& model, const cv::Vec3f& peak);
+// The model balanced for a view of the same user's skin in another light or through another camera,
+// c' = (M_T / M) c [wearable paper]; only what the channels differ by, since U and V of a model do
+// not depend on brightness alone. `level` is M; a model that does not know M_T stays as it is.
+ColorModel balanced(const ColorModel& model, const cv::Vec3f& level);
 
 // A model with the class of that name learnt anew, other classes as they were. Background comes
 // from all examples ever taught.

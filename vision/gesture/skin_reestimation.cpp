@@ -52,9 +52,9 @@ double compactness(const cv::Mat& blob) {
 std::optional<std::string> refusal(const SkinEvidence& evidence) {
   if (evidence.area < 0.005) return "there is hardly any skin";
   if (evidence.area > 0.5) return "half the image would be skin";
-  if (evidence.border > 0.4) return "it covers the border as a wall does";
+  if (evidence.border > 0.35) return "it covers the border as a wall does";
   if (evidence.compact < 0.5) return "it is scattered rather than a hand";
-  if (evidence.agreement < 0.5) return "it drifted off to other colours";
+  if (evidence.agreement < 0.6) return "it drifted off to other colours";
   if (evidence.overlap > 0.4) return "its colours are those of the background";
   return std::nullopt;
 }
