@@ -151,7 +151,7 @@ Result<ColorModel> taught(const ColorModel& model, const std::string& name,
   }
   // Every lesson's surroundings weigh the same, however large its images.
   const double lessons = static_cast<double>(more.classes.size());
-  more.background = blend(more.background, spread(examples.outside, 1), 1 / lessons);
+  more.background = blend(more.background, spread(examples.outside, kTaughtSpread), 1 / lessons);
   return more;
 }
 
