@@ -1,57 +1,45 @@
-// How often each colour occurs among the pixels of a class: the U,V plane of BT.601 in full range,
-// and beside it the brightness, taken as independent of U and V.
+// How often each colour occurs among the pixels of a class. Brightness is counted beside the U,V
+// plane, as if it were independent of U and V.
 #pragma once
 
 #include <array>
-#include <vector>
 
 #include <opencv2/core/mat.hpp>
-#include <opencv2/core/matx.hpp>
+
+#include "vision/gesture/color_space.hpp"
 
 namespace armsreach::gesture {
 
-struct Yuv {
-  int y, u, v;  // 0..255; grey has u = v = 128
-};
+struct ColorHistogram {
+  ColorHistogram() : uv(kUvSide, kUvSide, 0.0F) {}
+  ColorHistogram(const ColorHistogram& other) { *this = other; }
+  ColorHistogram& operator=(const ColorHistogram& other);
 
-// BT.601, full range, in integers.
-inline Yuv yuv_from_bgr(int b, int g, int r) {
-  const int y = (29 * b + 150 * g + 77 * r + 128) >> 8;
-  return {y, 128 + (((b - y) * 144 + 128) >> 8), 128 + (((r - y) * 183 + 128) >> 8)};
-}
+  void add(const ColorCell& cell, float weight = 1);
+  double count() const;  // pixels
+  bool empty() const { return count() <= 0; }
 
-class ColorHistogram {
- public:
-  static constexpr int kSide = 64;   // cells along U and along V
-  static constexpr int kLumas = 32;  // cells of brightness
-
-  void add(const Yuv& color, double weight = 1);
-  void add_cell(int u, int v, double weight);  // cells 0..kSide-1
-  void add_luma(int luma, double weight);      // cell 0..kLumas-1
-  // The other's pixels, as many as `weight` says in all.
-  void add_share(const ColorHistogram& other, double weight);
-
-  double count() const { return count_; }  // pixels
-  bool empty() const { return count_ <= 0; }
-  double cell(int u, int v) const { return uv_[v * kSide + u]; }
-  double luma(int luma) const { return luma_[luma]; }
-
- private:
-  std::vector<double> uv_ = std::vector<double>(kSide * kSide);  // row v, column u
-  std::array<double, kLumas> luma_{};
-  double count_ = 0;
+  cv::Mat1f uv;  // row v, column u
+  std::array<float, kLumas> luma{};
 };
 
 // Adds the pixels of a CV_8UC3 BGR image where the CV_8UC1 mask is not 0 (an empty mask: all).
-void add_pixels(const cv::Mat& bgr, const cv::Mat& mask, ColorHistogram* histogram);
+void add_pixels(const cv::Mat& bgr, const cv::Mat& mask, const ColorProjection& projection,
+                ColorHistogram* histogram);
 
-// p(c|C): the histogram smoothed, with a small even share for colours that never occurred.
+// Spread in U,V by a Gaussian of that deviation [cells]: what few examples stand for.
+ColorHistogram spread(const ColorHistogram& histogram, double deviation);
+
+// The share (1 - weight) of a's distribution and `weight` of b's; of the one that is not empty
+// where the other is. Counts 1.
+ColorHistogram blend(const ColorHistogram& a, const ColorHistogram& b, double weight);
+
+// p(c|C), smoothed a little, with `unseen` of the probability spread evenly over all colours.
 struct ColorLikelihood {
-  explicit ColorLikelihood(const ColorHistogram& histogram);
-  double operator()(const Yuv& color, bool with_luma) const;
+  ColorLikelihood(const ColorHistogram& histogram, double unseen);
 
-  cv::Mat1f uv;                                    // kSide x kSide, sums to 1
-  std::array<float, ColorHistogram::kLumas> luma;  // sums to 1
+  cv::Mat1f uv;                    // sums to 1
+  std::array<float, kLumas> luma;  // sums to 1
 };
 
 }  // namespace armsreach::gesture

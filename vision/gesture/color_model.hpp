@@ -20,11 +20,13 @@ struct ColorModel {
   ColorHistogram background;
   std::vector<ColorClass> classes;
   bool with_luma = false;   // white, grey and black things differ in nothing else
-  cv::Vec3f peak{0, 0, 0};  // M_T: where each channel of the first class peaks, B, G, R; 0 unknown
+  cv::Vec3f level{0, 0, 0};    // M_T: the first class's level of each channel, B G R; 0: unknown
   cv::Vec3f balance{1, 1, 1};  // c' = balance * c, each channel, before anything else
 };
 
-// Index of the class, or nothing where there is none of that name.
-int class_named(const ColorModel& model, const std::string& name);  // -1: none
+constexpr const char* kSkin = "skin";
+
+// Index of the class of that name, or -1.
+int class_named(const ColorModel& model, const std::string& name);
 
 }  // namespace armsreach::gesture

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <opencv2/imgproc.hpp>
@@ -42,20 +43,22 @@ std::size_t nearest(const Centers& centers, const Color& color) {
   return best;
 }
 
-// Begins with the mean, then with the color farthest from all centres so far.
+// Begins with the mean, then with a color far from all centres so far: not the farthest, which is
+// a highlight.
 Centers first_centers(const std::vector<Color>& colors) {
   Color sum(0, 0, 0);
   for (const Color& color : colors) sum += color;
   Centers centers;
   centers.fill(sum * (1.0F / static_cast<float>(colors.size())));
+  std::vector<std::pair<float, std::size_t>> away(colors.size());
   for (std::size_t k = 1; k < centers.size(); ++k) {
-    float farthest = -1;
-    for (const Color& color : colors) {
-      const Color difference = color - centers[nearest(centers, color)];
-      if (difference.dot(difference) <= farthest) continue;
-      farthest = difference.dot(difference);
-      centers[k] = color;
+    for (std::size_t i = 0; i < colors.size(); ++i) {
+      const Color difference = colors[i] - centers[nearest(centers, colors[i])];
+      away[i] = {difference.dot(difference), i};
     }
+    const auto far = away.begin() + static_cast<std::ptrdiff_t>(0.95 * away.size());
+    std::nth_element(away.begin(), far, away.end());
+    centers[k] = colors[far->second];
   }
   return centers;
 }

@@ -13,7 +13,7 @@ namespace armsreach::gesture {
 namespace {
 
 constexpr int kWorkingArea = 320 * 240;  // px: shapes are no clearer in larger images
-constexpr double kHandReach = 4.0;       // palm radii from the palm's far side to a fingertip
+constexpr double kHandReach = 3.0;       // palm radii from its middle; a fingertip is 2.6 away
 constexpr double kLeastSleeve = 0.45;    // palm radii, of the largest circle where an arm ends
 constexpr double kNearer = 1.3;          // as far from the border: the other end of an arm
 constexpr double kLeastContact = 0.9;    // palm radii of border: an arm; less is a fingertip
@@ -161,7 +161,6 @@ std::vector<HandShape> readings_of(const Cutout& one, const std::vector<cv::Poin
     read_cut(contact.middle, find_palm(distance, contact.middle));
     return readings;
   }
-  readings.push_back(shape_of(one, one.mask, broadest, std::nullopt, factor));
   // A sleeve ends some arms before the border, and then at the end that is nearer to it.
   auto ends = ends_of(outline);
   const auto to_border = [&](const Eigen::Vector2d& end) {
@@ -179,6 +178,8 @@ std::vector<HandShape> readings_of(const Cutout& one, const std::vector<cv::Poin
                         breadth_near(distance, end, palm.radius) > kLeastSleeve * palm.radius;
     if (is_arm) read_cut(end, palm);
   }
+  if (readings.empty())
+    readings.push_back(shape_of(one, one.mask, broadest, std::nullopt, factor));
   return readings;
 }
 
