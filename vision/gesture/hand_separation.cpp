@@ -10,8 +10,6 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "vision/gesture/color_histogram.hpp"
-
 namespace armsreach::gesture {
 namespace {
 
@@ -25,9 +23,11 @@ constexpr std::size_t kFewest = 60;  // samples
 
 using Color = cv::Vec3f;
 
+// Brightness and the two differences of colour of BT.601.
 Color color_of(const cv::Vec3b& pixel) {
-  const Yuv yuv = yuv_from_bgr(pixel[0], pixel[1], pixel[2]);
-  return {kLuma * static_cast<float>(yuv.y), static_cast<float>(yuv.u), static_cast<float>(yuv.v)};
+  const float b = pixel[0], g = pixel[1], r = pixel[2];
+  const float y = 0.114F * b + 0.587F * g + 0.299F * r;
+  return {kLuma * y, 0.564F * (b - y), 0.713F * (r - y)};
 }
 
 using Centers = std::array<Color, kClasses>;
@@ -56,7 +56,7 @@ Centers first_centers(const std::vector<Color>& colors) {
       const Color difference = colors[i] - centers[nearest(centers, colors[i])];
       away[i] = {difference.dot(difference), i};
     }
-    const auto far = away.begin() + static_cast<std::ptrdiff_t>(0.95 * away.size());
+    const auto far = away.begin() + static_cast<std::ptrdiff_t>(away.size() * 19 / 20);
     std::nth_element(away.begin(), far, away.end());
     centers[k] = colors[far->second];
   }
@@ -114,11 +114,13 @@ cv::Mat without_walls(const cv::Mat& bgr, const cv::Mat& skin) {
   }
   cv::Mat kept(size, CV_8UC1, cv::Scalar(0));
   for (std::size_t k = 0; k < kClasses; ++k)
-    if (contacts[k] < kContact * std::sqrt(areas[k])) kept.setTo(255, classes == static_cast<int>(k));
+    if (contacts[k] < kContact * std::sqrt(areas[k]))
+      kept.setTo(255, classes == static_cast<int>(k));
   cv::blur(kept, kept, {5, 5});
   kept = kept > 127;
   // Shadows leave thin lines.
-  cv::morphologyEx(kept, kept, cv::MORPH_OPEN, cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5}));
+  cv::morphologyEx(kept, kept, cv::MORPH_OPEN,
+                   cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5}));
   cv::resize(kept, kept, bgr.size(), 0, 0, cv::INTER_NEAREST);
   return kept;
 }

@@ -39,7 +39,8 @@ cv::Mat reduced(const cv::Mat& mask, int factor) {
 }
 
 Cutout cutout(const cv::Mat& labels, int label, const cv::Rect& box) {
-  Cutout one{cv::Mat(box.height + 2, box.width + 2, CV_8UC1, cv::Scalar(0)), box.tl() - cv::Point(1, 1)};
+  Cutout one{cv::Mat(box.height + 2, box.width + 2, CV_8UC1, cv::Scalar(0)),
+             box.tl() - cv::Point(1, 1)};
   one.mask(cv::Rect(1, 1, box.width, box.height)).setTo(255, labels(box) == label);
   return one;
 }
@@ -64,8 +65,8 @@ std::vector<cv::Point> outline_of(cv::Mat& mask) {
 
 // Where the outline runs along the image's border.
 struct Contact {
-  int pixels = 0;  // in all
-  int longest = 0;  // of one run
+  int pixels = 0;                // in all
+  int longest = 0;               // of one run
   Eigen::Vector2d middle{0, 0};  // of that run
 };
 Contact contact_of(const std::vector<cv::Point>& outline, const cv::Point& origin,
@@ -144,8 +145,7 @@ double breadth_near(const cv::Mat& distance, const Eigen::Vector2d& end, double 
 }
 
 std::vector<HandShape> readings_of(const Cutout& one, const std::vector<cv::Point>& outline,
-                                   const Contact& contact, const cv::Size& image,
-                                   int factor) {
+                                   const Contact& contact, const cv::Size& image, int factor) {
   cv::Mat filled(one.mask.size(), CV_8UC1, cv::Scalar(0));  // a ring of fingers has a middle, too
   cv::drawContours(filled, std::vector<std::vector<cv::Point>>{outline}, 0, 255, cv::FILLED);
   cv::Mat distance;
@@ -178,8 +178,7 @@ std::vector<HandShape> readings_of(const Cutout& one, const std::vector<cv::Poin
                         breadth_near(distance, end, palm.radius) > kLeastSleeve * palm.radius;
     if (is_arm) read_cut(end, palm);
   }
-  if (readings.empty())
-    readings.push_back(shape_of(one, one.mask, broadest, std::nullopt, factor));
+  if (readings.empty()) readings.push_back(shape_of(one, one.mask, broadest, std::nullopt, factor));
   return readings;
 }
 
@@ -191,8 +190,8 @@ std::vector<HandBlob> HandFinder::find(const cv::Mat& mask) const {
   const int factor = reduction(mask.size());
   const cv::Mat working = reduced(mask, factor);
   cv::Mat labels, statistics, centroids;
-  const int count = cv::connectedComponentsWithStats(working, labels, statistics, centroids, 8,
-                                                     CV_32S);
+  const int count =
+      cv::connectedComponentsWithStats(working, labels, statistics, centroids, 8, CV_32S);
   std::vector<int> order(static_cast<std::size_t>(count) - 1);
   std::iota(order.begin(), order.end(), 1);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
@@ -200,7 +199,8 @@ std::vector<HandBlob> HandFinder::find(const cv::Mat& mask) const {
   });
   std::vector<HandBlob> blobs;
   for (const int label : order) {
-    const double share = statistics.at<int>(label, cv::CC_STAT_AREA) / static_cast<double>(working.total());
+    const double share =
+        statistics.at<int>(label, cv::CC_STAT_AREA) / static_cast<double>(working.total());
     if (static_cast<int>(blobs.size()) == options_.most_hands || share < options_.least_area) break;
     const cv::Rect box(statistics.at<int>(label, cv::CC_STAT_LEFT),
                        statistics.at<int>(label, cv::CC_STAT_TOP),
@@ -215,8 +215,9 @@ std::vector<HandBlob> HandFinder::find(const cv::Mat& mask) const {
     const HandShape& first = blob.readings[0];
     const double hand_share = first.area / static_cast<double>(mask.total());
     const double most = contact.pixels > 0 ? options_.most_area : options_.most_area_inside;
-    blob.plausible = hand_share >= options_.least_area && hand_share <= most &&
-                     blob.contact < options_.most_contact * std::sqrt(cv::contourArea(blob.outline)) * factor;
+    blob.plausible =
+        hand_share >= options_.least_area && hand_share <= most &&
+        blob.contact < options_.most_contact * std::sqrt(cv::contourArea(blob.outline)) * factor;
     for (cv::Point& point : blob.outline)
       point = (point + one.origin) * factor + cv::Point(factor / 2, factor / 2);
     blobs.push_back(std::move(blob));

@@ -21,12 +21,12 @@ struct HandFinderOptions {
 
 // Pixels are those of the image; a hand may be looked at in a smaller copy of it.
 struct HandShape {
-  cv::Mat mask;                      // CV_8UC1, 255 on the hand without its forearm; a crop, and
+  cv::Mat mask;                       // CV_8UC1, 255 on the hand without its forearm; a crop, and
   Eigen::Vector2d mask_origin{0, 0};  // where the middle of its first pixel is in the image,
-  double mask_scale = 1;             // px of the image a pixel of it
-  Eigen::Vector2d center{0, 0};      // centroid
-  double area = 0;                   // px^2
-  Eigen::Vector2d palm{0, 0};        // middle of the largest circle in the palm
+  double mask_scale = 1;              // px of the image a pixel of it
+  Eigen::Vector2d center{0, 0};       // centroid
+  double area = 0;                    // px^2
+  Eigen::Vector2d palm{0, 0};         // middle of the largest circle in the palm
   double palm_radius = 0;
   std::optional<Eigen::Vector2d> to_arm;  // unit, from the palm; nothing where no arm was seen
 };

@@ -26,8 +26,8 @@ ARMSREACH_INLINE Bytes weigh(Bytes bits, Bytes low, Bytes high) {
   const Bytes half = _mm512_set1_epi8(15);
   return _mm512_add_epi64(
       _mm512_sad_epu8(_mm512_shuffle_epi8(low, _mm512_and_si512(bits, half)), zero()),
-      _mm512_sad_epu8(
-          _mm512_shuffle_epi8(high, _mm512_and_si512(_mm512_srli_epi16(bits, 4), half)), zero()));
+      _mm512_sad_epu8(_mm512_shuffle_epi8(high, _mm512_and_si512(_mm512_srli_epi16(bits, 4), half)),
+                      zero()));
 }
 ARMSREACH_INLINE Bytes add(Bytes a, Bytes b) { return _mm512_add_epi64(a, b); }
 ARMSREACH_INLINE std::uint32_t total(Bytes a) {
@@ -50,8 +50,8 @@ ARMSREACH_INLINE Bytes weigh(Bytes bits, Bytes low, Bytes high) {
   const Bytes half = _mm256_set1_epi8(15);
   return _mm256_add_epi64(
       _mm256_sad_epu8(_mm256_shuffle_epi8(low, _mm256_and_si256(bits, half)), zero()),
-      _mm256_sad_epu8(
-          _mm256_shuffle_epi8(high, _mm256_and_si256(_mm256_srli_epi16(bits, 4), half)), zero()));
+      _mm256_sad_epu8(_mm256_shuffle_epi8(high, _mm256_and_si256(_mm256_srli_epi16(bits, 4), half)),
+                      zero()));
 }
 ARMSREACH_INLINE Bytes add(Bytes a, Bytes b) { return _mm256_add_epi64(a, b); }
 ARMSREACH_INLINE std::uint32_t total(Bytes a) {

@@ -118,7 +118,8 @@ void RingMatcher::search(const RingSignature& seen, bool mirrored, const Shifts&
 double RingMatcher::angle_of(const TurnedSignature& seen, const Best& best) const {
   const int samples = set_.layout.samples;
   std::array<std::uint32_t, 3> near;
-  kernels_.mismatches(seen, bytes_of(set_.templates[static_cast<std::size_t>(best.index)].signature),
+  kernels_.mismatches(seen,
+                      bytes_of(set_.templates[static_cast<std::size_t>(best.index)].signature),
                       (best.shift + samples - 1) % samples, 1, 3, near.data());
   const double before = near[0], at = near[1], after = near[2];
   const double slope = std::max(before, after) - at;

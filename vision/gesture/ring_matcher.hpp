@@ -19,8 +19,8 @@ namespace armsreach::gesture {
 enum class Hands { as_learnt, both };  // both: also their mirror images
 
 struct RingMatch {
-  int index = -1;  // of the template in its set; -1: no templates
-  int shift = 0;   // what is seen at angle i + shift is the template's at angle i
+  int index = -1;         // of the template in its set; -1: no templates
+  int shift = 0;          // what is seen at angle i + shift is the template's at angle i
   bool mirrored = false;  // in the mirror image of what is seen
   double g = -1;
   double angle = 0;  // rad, clockwise, between the shifts; of the hand, not of its mirror image

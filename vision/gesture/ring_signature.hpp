@@ -18,9 +18,7 @@ struct RingSignature {
   static constexpr int kPlanes = kMostRings / 8;
   std::array<std::array<std::uint8_t, kMostSamples>, kPlanes> planes{};
 
-  bool at(int ring, int angle) const {
-    return (planes[ring / 8][angle] >> (ring % 8)) & 1;
-  }
+  bool at(int ring, int angle) const { return (planes[ring / 8][angle] >> (ring % 8)) & 1; }
   void set(int ring, int angle) {
     planes[ring / 8][angle] |= static_cast<std::uint8_t>(1 << (ring % 8));
   }

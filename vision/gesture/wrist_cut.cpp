@@ -47,7 +47,8 @@ Palm find_palm(const cv::Mat& distance, const std::optional<Eigen::Vector2d>& ar
     }
   }
   const int reach = static_cast<int>(1.5F * distance.at<float>(at));
-  return broadest(distance, cv::Rect(at.x - reach, at.y - reach, 2 * reach + 1, 2 * reach + 1) & all);
+  return broadest(distance,
+                  cv::Rect(at.x - reach, at.y - reach, 2 * reach + 1, 2 * reach + 1) & all);
 }
 
 std::optional<WristCut> find_wrist(const cv::Mat& blob, const Palm& palm,
