@@ -13,11 +13,11 @@ namespace armsreach::gesture {
 namespace {
 
 constexpr int kWorkingArea = 320 * 240;  // px: shapes are no clearer in larger images
-constexpr double kHandReach = 3.0;       // palm radii from its middle; a fingertip is 2.6 away
-constexpr double kLeastSleeve = 0.45;    // palm radii, of the largest circle where an arm ends
-constexpr double kNearer = 1.3;          // as far from the border: the other end of an arm
-constexpr double kLeastContact = 0.9;    // palm radii of border: an arm; less is a fingertip
-constexpr double kHoleShare = 0.005;     // of the blob: smaller holes are the mask's
+constexpr double kCore = 0.5;          // palm radii: half an arm's breadth; fingers have a quarter
+constexpr double kHandReach = 2.4;     // of the core, in palm radii from its middle, without an arm
+constexpr double kNearer = 1.3;        // as far from the border: the other end of an arm
+constexpr double kLeastContact = 0.9;  // palm radii of border: an arm; less is a fingertip
+constexpr double kHoleShare = 0.005;   // of the blob: smaller holes are the mask's
 
 // One blob in its bounding box, with a margin of one pixel.
 struct Cutout {
@@ -98,20 +98,26 @@ Contact contact_of(const std::vector<cv::Point>& outline, const cv::Point& origi
   return contact;
 }
 
-// The outline's two points that are farthest from each other, nearly.
-std::array<Eigen::Vector2d, 2> ends_of(const std::vector<cv::Point>& outline) {
-  std::array<Eigen::Vector2d, 2> ends{Eigen::Vector2d(outline[0].x, outline[0].y), {0, 0}};
-  for (int i = 1; i <= 3; ++i) {
-    const Eigen::Vector2d from = ends[static_cast<std::size_t>((i + 1) % 2)];
-    double farthest = -1;
-    for (const cv::Point& point : outline) {
-      const Eigen::Vector2d at(point.x, point.y);
-      if ((at - from).squaredNorm() <= farthest) continue;
-      farthest = (at - from).squaredNorm();
-      ends[static_cast<std::size_t>(i % 2)] = at;
-    }
+// Where the blob is broad: without fingers and ragged edges.
+std::vector<Eigen::Vector2d> core_of(const cv::Mat& distance, double least) {
+  std::vector<Eigen::Vector2d> core;
+  for (int y = 0; y < distance.rows; ++y) {
+    const float* row = distance.ptr<float>(y);
+    for (int x = 0; x < distance.cols; ++x)
+      if (row[x] >= static_cast<float>(least)) core.emplace_back(x, y);
   }
-  return ends;
+  return core;
+}
+
+// The two points that are farthest from each other, nearly.
+std::array<Eigen::Vector2d, 2> ends_of(const std::vector<Eigen::Vector2d>& points) {
+  const auto farthest_from = [&](const Eigen::Vector2d& from) {
+    return *std::max_element(points.begin(), points.end(), [&](const auto& a, const auto& b) {
+      return (a - from).squaredNorm() < (b - from).squaredNorm();
+    });
+  };
+  const Eigen::Vector2d one = farthest_from(points[0]);
+  return {one, farthest_from(one)};
 }
 
 HandShape shape_of(const Cutout& one, const cv::Mat& hand, const Palm& palm,
@@ -135,15 +141,6 @@ HandShape shape_of(const Cutout& one, const cv::Mat& hand, const Palm& palm,
   return shape;
 }
 
-// The blob's breadth near one of its ends: a finger's or an arm's.
-double breadth_near(const cv::Mat& distance, const Eigen::Vector2d& end, double reach) {
-  const cv::Rect window(static_cast<int>(end.x() - reach), static_cast<int>(end.y() - reach),
-                        static_cast<int>(2 * reach) + 1, static_cast<int>(2 * reach) + 1);
-  double breadth = 0;
-  cv::minMaxLoc(distance(window & cv::Rect({0, 0}, distance.size())), nullptr, &breadth);
-  return breadth;
-}
-
 std::vector<HandShape> readings_of(const Cutout& one, const std::vector<cv::Point>& outline,
                                    const Contact& contact, const cv::Size& image, int factor) {
   cv::Mat filled(one.mask.size(), CV_8UC1, cv::Scalar(0));  // a ring of fingers has a middle, too
@@ -162,7 +159,7 @@ std::vector<HandShape> readings_of(const Cutout& one, const std::vector<cv::Poin
     return readings;
   }
   // A sleeve ends some arms before the border, and then at the end that is nearer to it.
-  auto ends = ends_of(outline);
+  auto ends = ends_of(core_of(distance, kCore * broadest.radius));
   const auto to_border = [&](const Eigen::Vector2d& end) {
     return std::min({end.x() + one.origin.x, end.y() + one.origin.y,
                      image.width - 1 - end.x() - one.origin.x,
@@ -174,9 +171,7 @@ std::vector<HandShape> readings_of(const Cutout& one, const std::vector<cv::Poin
     if (told_apart && end == ends[1]) break;
     const Palm palm = find_palm(distance, end);
     const Eigen::Vector2d middle(palm.center.x, palm.center.y);
-    const bool is_arm = (end - middle).norm() > kHandReach * palm.radius &&
-                        breadth_near(distance, end, palm.radius) > kLeastSleeve * palm.radius;
-    if (is_arm) read_cut(end, palm);
+    if ((end - middle).norm() > kHandReach * palm.radius) read_cut(end, palm);
   }
   if (readings.empty()) readings.push_back(shape_of(one, one.mask, broadest, std::nullopt, factor));
   return readings;
