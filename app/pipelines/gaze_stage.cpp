@@ -11,8 +11,8 @@ constexpr const char* kColor = "colour:";
 constexpr double kGraspReach = 2;  // sizes of the hand to where a grasp points, if at no thing
 
 std::optional<Eigen::Vector2d> thing_named(const HandsState& hands, const std::string& name) {
-  for (const ColoredThing& thing : hands.things) {
-    if (thing.name == name) return thing.center();
+  for (const gesture::ColorBlob& thing : hands.things) {
+    if (thing.name == name) return thing.center;
   }
   return std::nullopt;
 }

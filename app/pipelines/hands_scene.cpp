@@ -62,9 +62,9 @@ void add_hands(const HandsState& hands, render::Scene* scene) {
     if (hand.cursor)
       scene->cursors.push_back({hand.cursor->cast<float>(), hand.state == "selecting", ""});
   }
-  for (const ColoredThing& thing : hands.things) {
+  for (const gesture::ColorBlob& thing : hands.things) {
     const bool highlighted = thing.name == hands.highlighted;
-    if (!highlighted && !hands.near.count(thing.name)) continue;
+    if (!highlighted && thing.name != hands.held) continue;
     scene->marks.push_back(
         {thing.name,
          {static_cast<float>(thing.box.x), static_cast<float>(thing.box.y)},

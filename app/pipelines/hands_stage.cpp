@@ -13,8 +13,6 @@ namespace {
 
 constexpr double kPointedWindow = 0.25;  // s over which a thing must be what is mostly pointed at
 constexpr double kCursorReach = 0.3;     // sizes of the hand between a cursor and what it means
-constexpr double kNear = 1.2;            // sizes of the hand from its centre to a thing's edge
-constexpr double kForgotten = 3;         // s after which a thing near a hand is news again
 constexpr int kSampleStep = 16;          // px between the pixels that are looked at for colour
 constexpr int kGreyLevels = 4;           // by which the channels of a grey image may differ
 
@@ -37,9 +35,10 @@ FaultEvent no_color() {
 
 double size_of(const gesture::Hand& hand) { return std::sqrt(std::max(hand.seen.area, 1.0)); }
 
-std::vector<gesture::Pointable> pointables(const std::vector<ColoredThing>& things) {
+std::vector<gesture::Pointable> pointables(const gesture::ColorBlobs& things) {
   std::vector<gesture::Pointable> all;
-  for (const ColoredThing& thing : things) all.push_back({thing.center(), thing.radius()});
+  for (const gesture::ColorBlob& thing : things)
+    all.push_back({thing.center, std::sqrt(thing.area / std::numbers::pi)});
   return all;
 }
 
@@ -51,11 +50,6 @@ std::optional<std::size_t> meant_by(const gesture::Hand& hand,
 }
 
 }  // namespace
-
-Eigen::Vector2d ColoredThing::center() const {
-  return {box.x + 0.5 * (box.width - 1), box.y + 0.5 * (box.height - 1)};
-}
-double ColoredThing::radius() const { return std::sqrt(area / std::numbers::pi); }
 
 HandsStage::HandsStage(HandsSetup setup)
     : detectors_(std::move(setup.detectors)),
@@ -73,11 +67,14 @@ HandsOutput HandsStage::process(const TrackedFramePtr& tracked) {
   if (std::exchange(colorless_, colorless) != colorless && colorless)
     out.news.events.push_back({frame.time, no_color()});
 
-  gesture::Gestures gestures = inference_.update(
-      colorless ? gesture::HandObservations() : detectors_.hands(frame.color), frame.time);
+  Sighting sighting;
+  if (!colorless) sighting = detectors_.look(frame.color);
+  gesture::Gestures gestures = inference_.update(sighting.hands, frame.time);
   state->hands = std::move(gestures.hands);
+  state->things = std::move(sighting.things);
   tell_gestures(*state, frame.time, &out.news.events);
-  if (!colorless && detectors_.things) look_for_things(*tracked, state.get(), &out.news.events);
+  find_held(*tracked, state.get(), &out.news.events);
+  find_highlighted(*tracked, state.get(), &out.news.events);
   for (const gesture::HandAction& action : gestures.actions)
     out.news.commands.push_back({action.action, ray_through(*tracked, action.pixel)});
   out.seen.hands = std::move(state);
@@ -99,30 +96,14 @@ void HandsStage::tell_gestures(const HandsState& state, Timestamp time, Events* 
   told_ = std::move(now);
 }
 
-void HandsStage::look_for_things(const TrackedFrame& tracked, HandsState* state, Events* events) {
-  state->things = detectors_.things(tracked.frame->color);
-  find_near(tracked, state, events);
-  find_highlighted(tracked, state, events);
-}
-
-void HandsStage::find_near(const TrackedFrame& tracked, HandsState* state, Events* events) {
-  const Timestamp time = tracked.frame->time;
-  for (const ColoredThing& thing : state->things) {
-    const bool near =
-        std::any_of(state->hands.begin(), state->hands.end(), [&thing](const gesture::Hand& hand) {
-          const double distance = (thing.center() - hand.seen.center).norm() - thing.radius();
-          return distance < kNear * size_of(hand);
-        });
-    if (!near) continue;
-    state->near.insert(thing.name);
-    const auto last = last_near_.find(thing.name);
-    const bool news =
-        last == last_near_.end() || seconds_from_timestamp(time - last->second) > kForgotten;
-    last_near_[thing.name] = time;
-    if (!news) continue;
-    events->push_back(
-        {time, LabelEvent{thing.name, thing.center(), point_in_world_at(tracked, thing.center())}});
-  }
+void HandsStage::find_held(const TrackedFrame& tracked, HandsState* state, Events* events) {
+  std::optional<gesture::HandObservation> hand;
+  if (!state->hands.empty()) hand = state->hands.front().seen;
+  const std::optional<gesture::ColorBlob>& held = held_.update(state->things, hand);
+  state->held = held ? held->name : "";
+  if (std::exchange(held_told_, state->held) == state->held || !held) return;
+  events->push_back({tracked.frame->time, LabelEvent{held->name, held->center,
+                                                     point_in_world_at(tracked, held->center)}});
 }
 
 void HandsStage::find_highlighted(const TrackedFrame& tracked, HandsState* state, Events* events) {
@@ -135,11 +116,11 @@ void HandsStage::find_highlighted(const TrackedFrame& tracked, HandsState* state
   const std::string before = pointed_at_.mode().name;
   state->highlighted = pointed_at_.update(meant, 0, tracked.frame->time).name;
   if (state->highlighted.empty() || state->highlighted == before) return;
-  for (const ColoredThing& thing : state->things) {
+  for (const gesture::ColorBlob& thing : state->things) {
     if (thing.name != state->highlighted) continue;
     events->push_back(
         {tracked.frame->time,
-         HighlightEvent{thing.name, thing.center(), point_in_world_at(tracked, thing.center())}});
+         HighlightEvent{thing.name, thing.center, point_in_world_at(tracked, thing.center)}});
     return;
   }
 }

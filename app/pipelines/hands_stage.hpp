@@ -5,7 +5,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -15,25 +14,20 @@
 #include "app/interaction/hand_interaction.hpp"
 #include "app/runtime/stage.hpp"
 #include "vision/core/tracked_frame.hpp"
+#include "vision/gesture/color_blobs.hpp"
 #include "vision/gesture/gesture_inference.hpp"
 
 namespace armsreach::app {
 
-// A thing known by its colour. Pixels of the colour image.
-struct ColoredThing {
-  std::string name;
-  cv::Rect box;
-  double area = 0;  // px^2
-
-  Eigen::Vector2d center() const;
-  double radius() const;  // px, of a disc of its area
+// What is seen in one image.
+struct Sighting {
+  gesture::HandObservations hands;
+  gesture::ColorBlobs things;  // known by their colours; none where no colours are known
 };
 
-// What looks at one image. `things` may be empty where no colours are known.
 struct HandDetectors {
-  std::function<gesture::HandObservations(const cv::Mat& bgr)> hands;
-  std::function<std::vector<ColoredThing>(const cv::Mat& bgr)> things;
-  std::vector<double> rings;  // radii in roots of a hand's area, to be shown
+  std::function<Sighting(const cv::Mat& bgr)> look;
+  std::vector<double> rings;  // radii to be shown, in roots of a hand's area
 };
 
 struct HandsSetup {
@@ -43,10 +37,10 @@ struct HandsSetup {
 
 struct HandsState {
   std::vector<gesture::Hand> hands;
-  std::vector<ColoredThing> things;
-  std::set<std::string> near;  // names of things near a hand
-  std::string highlighted;     // name of the thing that is pointed at; or empty
-  std::vector<double> rings;   // as of the detectors
+  gesture::ColorBlobs things;
+  std::string held;           // name of the thing in the first hand, or empty
+  std::string highlighted;    // name of the thing that is pointed at, or empty
+  std::vector<double> rings;  // as of the detectors
 };
 using HandsStatePtr = std::shared_ptr<const HandsState>;
 
@@ -74,16 +68,16 @@ class HandsStage final : public Stage<TrackedFramePtr, HandsOutput> {
   HandsOutput process(const TrackedFramePtr& tracked) override;
 
  private:
-  void look_for_things(const TrackedFrame& tracked, HandsState* state, Events* events);
-  void find_near(const TrackedFrame& tracked, HandsState* state, Events* events);
+  void find_held(const TrackedFrame& tracked, HandsState* state, Events* events);
   void find_highlighted(const TrackedFrame& tracked, HandsState* state, Events* events);
   void tell_gestures(const HandsState& state, Timestamp time, Events* events);
 
   HandDetectors detectors_;
   gesture::GestureInference inference_;
-  std::map<int, std::string> told_;             // gesture of each hand
-  std::map<std::string, Timestamp> last_near_;  // of each thing
+  gesture::HeldThing held_;
   gesture::ModalFilter pointed_at_;
+  std::map<int, std::string> told_;  // gesture of each hand
+  std::string held_told_;
   bool colorless_ = false;
 };
 
