@@ -19,7 +19,7 @@ struct ColorClass {
 struct ColorModel {
   ColorHistogram background;
   std::vector<ColorClass> classes;
-  bool with_luma = false;   // white, grey and black things differ in nothing else
+  bool with_luma = false;      // white, grey and black things differ in nothing else
   cv::Vec3f level{0, 0, 0};    // M_T: the first class's level of each channel, B G R; 0: unknown
   cv::Vec3f balance{1, 1, 1};  // c' = balance * c, each channel, before anything else
 };
