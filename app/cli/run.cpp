@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "app/cli/hands_setup.hpp"
 #include "app/cli/rig_options.hpp"
 #include "app/cli/run_options.hpp"
-#include "app/pipelines/hands_setup.hpp"
 #include "app/pipelines/narrator.hpp"
 #include "app/pipelines/pipeline.hpp"
 #include "app/pipelines/presenter.hpp"

@@ -102,12 +102,21 @@ cv::Vec3f level_of(const ColorExamples& examples) {
   return level;
 }
 
-Result<ColorModel> general_skin_model(const ColorExamples& examples, const std::string& where) {
-  if (auto status = check_enough(examples, where); !status) return status.error();
+Result<ColorModel> general_skin_model(const std::vector<ColorExamples>& sets,
+                                      const std::string& where) {
+  CV_Assert(!sets.empty());
   ColorModel model;
-  model.background = spread(examples.outside, kGeneralSpread);
-  model.classes.push_back({kSkin, spread(examples.inside, kGeneralSpread)});
-  model.level = level_of(examples);
+  model.classes.push_back({kSkin, {}});
+  ColorHistogram& skin = model.classes[0].pixels;
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    if (auto status = check_enough(sets[i], where); !status) return status.error();
+    const double share = 1 / static_cast<double>(i + 1);
+    skin = blend(skin, sets[i].inside, share);
+    model.background = blend(model.background, sets[i].outside, share);
+  }
+  skin = spread(skin, kGeneralSpread);
+  model.background = spread(model.background, kGeneralSpread);
+  model.level = level_of(sets[0]);
   return model;
 }
 

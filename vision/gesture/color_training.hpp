@@ -4,6 +4,7 @@
 #include <array>
 #include <istream>
 #include <string>
+#include <vector>
 
 #include <opencv2/core/mat.hpp>
 
@@ -34,8 +35,10 @@ Status add_pixel_list(std::istream& in, const std::string& where, ColorExamples*
 // broad, flat histograms of real views that jumps about, and balancing by it does harm.)
 cv::Vec3f level_of(const ColorExamples& examples);
 
-// Skin against background from examples of many people: spread, since others differ.
-Result<ColorModel> general_skin_model(const ColorExamples& examples, const std::string& where);
+// Skin against background from sets of examples of many people, each set counting alike; spread,
+// since others differ.
+Result<ColorModel> general_skin_model(const std::vector<ColorExamples>& sets,
+                                      const std::string& where);
 
 // The model fitted to one person under one light: learnt anew, with a little of the old.
 Result<ColorModel> fitted_skin_model(const ColorModel& general, const ColorExamples& examples,

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "vision/gesture/hand_separation.hpp"
+
 namespace armsreach::gesture {
 namespace {
 
@@ -50,6 +52,15 @@ GestureTemplate template_of(const std::string& gesture, const HandShape& shape,
   return {gesture, signature_of(shape, layout, straight.value_or(0)), straight.has_value()};
 }
 
+std::vector<HandBlob> find_hands(const HandFinder& finder, const cv::Mat& skin,
+                                 const cv::Mat& bgr) {
+  auto blobs = finder.find(skin);
+  if (blobs.empty() || blobs[0].plausible) return blobs;
+  auto parted = finder.find(without_walls(bgr, skin));
+  const bool better = !parted.empty() && parted[0].plausible;
+  return better ? parted : blobs;
+}
+
 GestureDetector::GestureDetector(TemplateSet set, const GestureDetectorOptions& options)
     : options_(options), finder_(options.hands), matcher_(std::move(set)) {}
 
@@ -83,13 +94,21 @@ HandObservation GestureDetector::observe(const HandBlob& blob) const {
   return seen;
 }
 
-HandObservations GestureDetector::detect(const cv::Mat& skin) const {
+HandObservations GestureDetector::observe_all(const std::vector<HandBlob>& blobs) const {
   HandObservations hands;
-  for (const HandBlob& blob : finder_.find(skin)) {
+  for (const HandBlob& blob : blobs) {
     hands.push_back(observe(blob));
     hands.back().hand = static_cast<int>(hands.size()) - 1;
   }
   return hands;
+}
+
+HandObservations GestureDetector::detect(const cv::Mat& skin) const {
+  return observe_all(finder_.find(skin));
+}
+
+HandObservations GestureDetector::detect(const cv::Mat& skin, const cv::Mat& bgr) const {
+  return observe_all(find_hands(finder_, skin, bgr));
 }
 
 }  // namespace armsreach::gesture

@@ -1,6 +1,10 @@
 // Hands and their gestures in a mask of skin.
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include <opencv2/core/mat.hpp>
 
 #include "vision/gesture/hand_observation.hpp"
@@ -27,6 +31,9 @@ RingSignature signature_of(const HandShape& shape, const RingLayout& layout, dou
 GestureTemplate template_of(const std::string& gesture, const HandShape& shape,
                             const RingLayout& layout);
 
+// The blobs of a mask, parted from walls by `bgr` where the largest is no hand.
+std::vector<HandBlob> find_hands(const HandFinder& finder, const cv::Mat& skin, const cv::Mat& bgr);
+
 class GestureDetector {
  public:
   explicit GestureDetector(TemplateSet set, const GestureDetectorOptions& options = {});
@@ -34,9 +41,13 @@ class GestureDetector {
   const RingMatcher& matcher() const { return matcher_; }
   // `skin`: CV_8UC1, 0 off the skin.
   HandObservations detect(const cv::Mat& skin) const;
+  // The same, and where the largest blob is no hand by its shape, once more without the walls that
+  // `bgr` (CV_8UC3, of the mask's size) shows behind it.
+  HandObservations detect(const cv::Mat& skin, const cv::Mat& bgr) const;
 
  private:
   HandObservation observe(const HandBlob& blob) const;
+  HandObservations observe_all(const std::vector<HandBlob>& blobs) const;
 
   GestureDetectorOptions options_;
   HandFinder finder_;

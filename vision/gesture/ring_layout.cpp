@@ -37,7 +37,7 @@ RingLayout doubling_rings(int k) {
 RingLayout linear_rings(int k) {
   RingLayout layout{{}, {}, 2 * k};
   for (int tenths = 2; tenths <= 13; ++tenths) {
-    layout.radii.push_back(0.1F * static_cast<float>(tenths));
+    layout.radii.push_back(static_cast<float>(tenths) / 10);
     layout.weights.push_back(static_cast<std::uint8_t>(tenths));
   }
   return layout;

@@ -1,5 +1,7 @@
 #include "vision/gesture/template_set.hpp"
 
+#include <array>
+#include <charconv>
 #include <iomanip>
 #include <sstream>
 
@@ -60,6 +62,13 @@ std::string text_of(const RingLayout& layout) {
   return text.str();
 }
 
+// The shortest text that is read as the same number.
+std::string shortest(float value) {
+  std::array<char, 32> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return {text.data(), end};
+}
+
 Error broken(const std::string& what, const std::string& where) {
   return {what, where, "learn it again with `armsreach learn gesture`"};
 }
@@ -93,8 +102,7 @@ Status read_templates(std::istream& in, const std::string& gesture, const std::s
 void write_templates(std::ostream& out, const std::string& gesture, const TemplateSet& set) {
   const RingLayout& layout = set.layout;
   out << kFormat << "\nsamples " << layout.samples << "\nradii";
-  out << std::setprecision(9);
-  for (const float radius : layout.radii) out << ' ' << radius;
+  for (const float radius : layout.radii) out << ' ' << shortest(radius);
   out << "\nweights";
   for (const int weight : layout.weights) out << ' ' << weight;
   out << '\n' << std::hex << std::setfill('0');

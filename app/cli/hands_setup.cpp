@@ -1,0 +1,91 @@
+#include "app/cli/hands_setup.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "app/cli/color_files.hpp"
+#include "app/cli/gesture_files.hpp"
+#include "render/assets.hpp"
+#include "vision/gesture/gesture_detector.hpp"
+#include "vision/gesture/skin_segmenter.hpp"
+
+namespace armsreach::app {
+namespace {
+
+Result<gesture::GestureTable> read_table(const std::string& path) {
+  if (path.empty()) {
+    constexpr const char* kOwn = "gestures/transitions.yaml";
+    std::istringstream in{std::string(render::asset(kOwn))};
+    return gesture::read_gesture_table(in, kOwn);
+  }
+  std::ifstream in(path);
+  if (!in || std::filesystem::is_directory(path))
+    return Error{"cannot be opened", path, "check gesture.table in the configuration"};
+  return gesture::read_gesture_table(in, path);
+}
+
+// Looks at one image after the other, on one thread.
+class Looking {
+ public:
+  Looking(gesture::ColorModel skin, gesture::TemplateSet templates,
+          std::optional<gesture::ColorModel> colors)
+      : skin_(std::move(skin), {.adaptation = gesture::SkinOptions::Adaptation::stream}),
+        hands_(std::move(templates)) {
+    if (colors) things_.emplace(*std::move(colors));
+  }
+
+  Sighting look(const cv::Mat& bgr) {
+    const cv::Mat& skin = skin_.segment(bgr);
+    return {hands_.detect(skin, bgr), things_ ? things_->find(bgr, skin) : gesture::ColorBlobs()};
+  }
+  const gesture::RingLayout& rings() const { return hands_.matcher().set().layout; }
+
+ private:
+  gesture::SkinSegmenter skin_;
+  gesture::GestureDetector hands_;
+  std::optional<gesture::ColorBlobFinder> things_;
+};
+
+Result<HandDetectors> make_detectors(const GestureConfig& config, bool show_rings) {
+  auto skin = skin_model(config.skin);
+  if (!skin) return skin.error();
+  auto templates = load_templates(config.templates, config.vocabulary);
+  if (!templates) return templates.error();
+  std::optional<gesture::ColorModel> colors;
+  if (!config.colours.empty()) {
+    auto model = read_model_file(config.colours);
+    if (!model) return model.error();
+    colors = *std::move(model);
+  }
+  const auto looking =
+      std::make_shared<Looking>(*std::move(skin), *std::move(templates), std::move(colors));
+  HandDetectors detectors;
+  if (show_rings)
+    detectors.rings.assign(looking->rings().radii.begin(), looking->rings().radii.end());
+  detectors.look = [looking](const cv::Mat& bgr) { return looking->look(bgr); };
+  return detectors;
+}
+
+}  // namespace
+
+Result<HandsSetup> make_hands_setup(const GestureConfig& config, const ShowConfig& show) {
+  auto table = read_table(config.table);
+  if (!table) return table.error();
+  auto detectors = make_detectors(config, show.rings);
+  if (!detectors) return detectors.error();
+  HandsSetup setup;
+  setup.detectors = *std::move(detectors);
+  setup.inference.table = *std::move(table);
+  setup.inference.window = config.window;
+  setup.inference.cursor.enabled = config.cursor_filter.enabled;
+  setup.inference.cursor.min_cutoff = config.cursor_filter.min_cutoff;
+  setup.inference.cursor.beta = config.cursor_filter.beta;
+  return setup;
+}
+
+}  // namespace armsreach::app
