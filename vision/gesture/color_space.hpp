@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include <opencv2/core/matx.hpp>
@@ -29,9 +30,9 @@ class ColorProjection {
     const cv::Vec3d y = {kB, kG, kR};
     for (int i = 0; i < 3; ++i) {
       const double one = (1 << kShift) * static_cast<double>(gain[i]);
-      u_[i] = static_cast<std::int32_t>(one * u[i] * kUvSide / 256);
-      v_[i] = static_cast<std::int32_t>(one * v[i] * kUvSide / 256);
-      luma_[i] = static_cast<std::int32_t>(one * y[i] * kLumas / 256);
+      u_[i] = rounded(one * u[i] * kUvSide / 256);
+      v_[i] = rounded(one * v[i] * kUvSide / 256);
+      luma_[i] = rounded(one * y[i] * kLumas / 256);
     }
   }
 
@@ -45,6 +46,8 @@ class ColorProjection {
   ColorCell operator()(const cv::Vec3b& bgr) const { return (*this)(bgr[0], bgr[1], bgr[2]); }
 
  private:
+  static std::int32_t rounded(double x) { return static_cast<std::int32_t>(std::lround(x)); }
+
   std::array<std::int32_t, 3> u_, v_, luma_;  // of B, G, R, in 2^-kShift cells
 };
 
