@@ -24,12 +24,11 @@ struct DetectGesturesOptions {
 };
 
 nlohmann::json json_from_hand(const HandPicture& picture, const gesture::HandObservation& hand) {
-  nlohmann::json json = {{"file", picture.file},     {"frame", picture.frame},
-                         {"hand", hand.hand},        {"gesture", nullptr},
-                         {"score", hand.score},      {"angle", hand.angle},
-                         {"x", hand.center.x()},     {"y", hand.center.y()},
-                         {"tip_x", hand.fingertip.x()}, {"tip_y", hand.fingertip.y()},
-                         {"area", hand.area},        {"scores", hand.scores}};
+  nlohmann::json json = {
+      {"file", picture.file},        {"frame", picture.frame}, {"hand", hand.hand},
+      {"gesture", nullptr},          {"score", hand.score},    {"angle", hand.angle},
+      {"x", hand.center.x()},        {"y", hand.center.y()},   {"tip_x", hand.fingertip.x()},
+      {"tip_y", hand.fingertip.y()}, {"area", hand.area},      {"scores", hand.scores}};
   if (hand.gesture) json["gesture"] = *hand.gesture;
   return json;
 }
@@ -39,8 +38,8 @@ Status detect(const DetectGesturesOptions& options) {
   if (!templates) return templates.error();
   const gesture::GestureDetector detector(std::move(*templates));
   nlohmann::json all = nlohmann::json::array();
-  const auto status = for_hand_pictures(
-      options.places, options.skin, [&](const HandPicture& picture) -> Status {
+  const auto status =
+      for_hand_pictures(options.places, options.skin, [&](const HandPicture& picture) -> Status {
         for (const auto& hand : detector.detect(picture.skin, picture.bgr))
           all.push_back(json_from_hand(picture, hand));
         return ok();

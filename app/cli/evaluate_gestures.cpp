@@ -75,9 +75,9 @@ struct Evaluation {
 };
 
 std::string best_of(const gesture::HandObservation& hand) {
-  const auto best = std::max_element(
-      hand.scores.begin(), hand.scores.end(),
-      [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto best =
+      std::max_element(hand.scores.begin(), hand.scores.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
   return best == hand.scores.end() ? "" : best->first;
 }
 
@@ -121,11 +121,15 @@ Result<std::vector<fs::path>> class_folders(const std::vector<std::string>& fold
   return classes;
 }
 
-nlohmann::json json_of(const Evaluation& e, const std::vector<gesture::GestureDetector>& detectors) {
+nlohmann::json json_of(const Evaluation& e,
+                       const std::vector<gesture::GestureDetector>& detectors) {
   const auto rate = [&](int count) { return static_cast<double>(count) / std::max(1, e.pictures); };
-  nlohmann::json json = {{"pictures", e.pictures},     {"right", rate(e.right)},
-                         {"wrong", rate(e.wrong)},     {"silent", rate(e.silent)},
-                         {"best_right", rate(e.first_right)}, {"confusion", e.confusion}};
+  nlohmann::json json = {{"pictures", e.pictures},
+                         {"right", rate(e.right)},
+                         {"wrong", rate(e.wrong)},
+                         {"silent", rate(e.silent)},
+                         {"best_right", rate(e.first_right)},
+                         {"confusion", e.confusion}};
   for (std::size_t i = 0; i < e.over_k.size(); ++i) {
     const auto curve = gesture::detection_curve(e.over_k[i].there, e.over_k[i].not_there);
     json["curves"].push_back({{"k", k_of(detectors[i].matcher().set().layout)},
@@ -164,9 +168,8 @@ Status write_plots(const std::string& folder, const Evaluation& evaluation,
                                [&](std::ostream& out) { write_curves_svg(out, curves); });
       !status)
     return status;
-  return write_file((fs::path(folder) / "confusion.svg").string(), [&](std::ostream& out) {
-    write_confusion_svg(out, evaluation.confusion);
-  });
+  return write_file((fs::path(folder) / "confusion.svg").string(),
+                    [&](std::ostream& out) { write_confusion_svg(out, evaluation.confusion); });
 }
 
 Status evaluate(const EvaluateGesturesOptions& options) {
@@ -200,8 +203,7 @@ Status evaluate(const EvaluateGesturesOptions& options) {
 }  // namespace
 
 void add_evaluate_gestures(CLI::App& evaluate_verb, Task* task) {
-  CLI::App* command =
-      evaluate_verb.add_subcommand("gestures", "how often gestures are told right");
+  CLI::App* command = evaluate_verb.add_subcommand("gestures", "how often gestures are told right");
   auto o = std::make_shared<EvaluateGesturesOptions>();
   command->add_option("folders", o->folders, "folders that have a folder for each gesture")
       ->required();
@@ -212,8 +214,7 @@ void add_evaluate_gestures(CLI::App& evaluate_verb, Task* task) {
   command->add_option("--skin", o->skin.model, "skin model, from `calibrate skin`");
   command->add_option("--masks", o->skin.masks, "folder of masks of the skin, PNG by name");
   command->add_option("--json", o->json, "write the figures here");
-  command->add_option("--plots", o->plots,
-                      "folder for roc.svg (over K) and confusion.svg");
+  command->add_option("--plots", o->plots, "folder for roc.svg (over K) and confusion.svg");
   command->callback([task, o] { *task = [o] { return evaluate(*o); }; });
 }
 

@@ -27,9 +27,12 @@ void begin(std::ostream& out, double width, double height) {
 void text(std::ostream& out, double x, double y, const char* anchor, const std::string& what) {
   out << "<text x=\"" << x << "\" y=\"" << y << "\" text-anchor=\"" << anchor << "\">";
   for (const char c : what) {
-    if (c == '<') out << "&lt;";
-    else if (c == '&') out << "&amp;";
-    else out << c;
+    if (c == '<')
+      out << "&lt;";
+    else if (c == '&')
+      out << "&amp;";
+    else
+      out << c;
   }
   out << "</text>\n";
 }

@@ -23,8 +23,8 @@ struct LearnGestureOptions {
 Status learn(const LearnGestureOptions& options) {
   gesture::TemplateSet learnt;
   const gesture::HandFinder finder;
-  const auto status = for_hand_pictures(
-      options.pictures, options.skin, [&](const HandPicture& picture) -> Status {
+  const auto status =
+      for_hand_pictures(options.pictures, options.skin, [&](const HandPicture& picture) -> Status {
         const auto blobs = gesture::find_hands(finder, picture.skin, picture.bgr);
         if (blobs.empty() || !blobs[0].plausible) {
           return Error{"no hand is found in it", picture.file,
