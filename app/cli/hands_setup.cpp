@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include <opencv2/imgproc.hpp>
+
 #include "app/cli/color_files.hpp"
 #include "app/cli/gesture_files.hpp"
 #include "render/assets.hpp"
@@ -29,18 +31,31 @@ Result<gesture::GestureTable> read_table(const std::string& path) {
   return gesture::read_gesture_table(in, path);
 }
 
+// Wood and walls have the colour of skin, but are farther away than a wearer's own hand. What has
+// no depth may be too near to have one.
+cv::Mat within_reach(const cv::Mat& skin, const Frame& frame, double reach) {
+  if (frame.depth.empty() || !frame.sensor->registered) return skin;
+  cv::Mat far = frame.depth > reach;
+  if (far.size() != skin.size()) cv::resize(far, far, skin.size(), 0, 0, cv::INTER_NEAREST);
+  cv::Mat near = skin.clone();
+  near.setTo(0, far);
+  return near;
+}
+
 // Looks at one image after the other, on one thread.
 class Looking {
  public:
   Looking(gesture::ColorModel skin, gesture::TemplateSet templates,
-          std::optional<gesture::ColorModel> colors)
+          std::optional<gesture::ColorModel> colors, double reach)
       : skin_(std::move(skin), {.adaptation = gesture::SkinOptions::Adaptation::stream}),
-        hands_(std::move(templates)) {
-    if (colors) things_.emplace(*std::move(colors));
+        hands_(std::move(templates)),
+        reach_(reach) {
+    if (colors) things_.emplace(*std::move(colors), config.reach);
   }
 
-  Sighting look(const cv::Mat& bgr) {
-    const cv::Mat& skin = skin_.segment(bgr);
+  Sighting look(const Frame& frame) {
+    const cv::Mat& bgr = frame.color;
+    const cv::Mat skin = within_reach(skin_.segment(bgr), frame, reach_);
     return {hands_.detect(skin, bgr), things_ ? things_->find(bgr, skin) : gesture::ColorBlobs()};
   }
   const gesture::RingLayout& rings() const { return hands_.matcher().set().layout; }
@@ -48,6 +63,7 @@ class Looking {
  private:
   gesture::SkinSegmenter skin_;
   gesture::GestureDetector hands_;
+  double reach_;  // m
   std::optional<gesture::ColorBlobFinder> things_;
 };
 
@@ -62,12 +78,12 @@ Result<HandDetectors> make_detectors(const GestureConfig& config, bool show_ring
     if (!model) return model.error();
     colors = *std::move(model);
   }
-  const auto looking =
-      std::make_shared<Looking>(*std::move(skin), *std::move(templates), std::move(colors));
+  const auto looking = std::make_shared<Looking>(*std::move(skin), *std::move(templates),
+                                                 std::move(colors), config.reach);
   HandDetectors detectors;
   if (show_rings)
     detectors.rings.assign(looking->rings().radii.begin(), looking->rings().radii.end());
-  detectors.look = [looking](const cv::Mat& bgr) { return looking->look(bgr); };
+  detectors.look = [looking](const Frame& frame) { return looking->look(frame); };
   return detectors;
 }
 

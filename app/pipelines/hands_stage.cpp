@@ -68,7 +68,7 @@ HandsOutput HandsStage::process(const TrackedFramePtr& tracked) {
     out.news.events.push_back({frame.time, no_color()});
 
   Sighting sighting;
-  if (!colorless) sighting = detectors_.look(frame.color);
+  if (!colorless) sighting = detectors_.look(frame);
   gesture::Gestures gestures = inference_.update(sighting.hands, frame.time);
   state->hands = std::move(gestures.hands);
   state->things = std::move(sighting.things);

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <Eigen/Core>
-#include <opencv2/core/mat.hpp>
 
 #include "app/interaction/hand_interaction.hpp"
 #include "app/runtime/stage.hpp"
@@ -26,8 +25,8 @@ struct Sighting {
 };
 
 struct HandDetectors {
-  std::function<Sighting(const cv::Mat& bgr)> look;
-  std::vector<double> rings;  // radii to be shown, in roots of a hand's area
+  std::function<Sighting(const Frame&)> look;  // at a frame that has colours
+  std::vector<double> rings;                   // radii to be shown, in roots of a hand's area
 };
 
 struct HandsSetup {

@@ -78,6 +78,8 @@ void read_gesture(YamlSection section, GestureConfig* gesture) {
   section.read<std::string>("table", &gesture->table, "a file of transitions", is_filled);
   section.read<double>("window", &gesture->window, "between 0 and 2 seconds",
                        [](const double& w) { return w >= 0 && w <= 2; });
+  section.read<double>("reach", &gesture->reach, "between 0.1 and 10 metres",
+                       [](const double& r) { return r >= 0.1 && r <= 10; });
   section.read<std::string>("insert", &gesture->insert, "the name of a mesh, or ''");
   read_cursor_filter(section.section("cursor_filter"), &gesture->cursor_filter);
   section.refuse_unknown();

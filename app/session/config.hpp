@@ -48,6 +48,7 @@ struct GestureConfig {
   std::string colours;            // classes of coloured things
   std::string table;              // transitions
   double window = 0.25;           // s of the modal filter
+  double reach = 0.7;             // m: skin beyond is no hand, where there is depth
   std::string insert = "teapot";  // mesh that a selecting hand inserts in a map; empty: none
   CursorFilterConfig cursor_filter;
 };

@@ -16,9 +16,10 @@ std::vector<CurvePoint> detection_curve(std::vector<double> there, std::vector<d
   std::vector<CurvePoint> curve{{std::max(there[0], not_there[0]) + 1, 0, 0}};
   std::size_t hits = 0, false_hits = 0;
   while (hits < there.size() || false_hits < not_there.size()) {
-    const double next = hits == there.size()             ? not_there[false_hits]
-                        : false_hits == not_there.size() ? there[hits]
-                                                         : std::max(there[hits], not_there[false_hits]);
+    const double next = hits == there.size() ? not_there[false_hits]
+                        : false_hits == not_there.size()
+                            ? there[hits]
+                            : std::max(there[hits], not_there[false_hits]);
     while (hits < there.size() && there[hits] >= next) ++hits;
     while (false_hits < not_there.size() && not_there[false_hits] >= next) ++false_hits;
     curve.push_back({next, rate(false_hits, not_there), rate(hits, there)});
