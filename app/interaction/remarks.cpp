@@ -9,6 +9,7 @@ struct BodyToSentence {
   std::optional<Sentence> operator()(const TrackingEvent& e) const {
     switch (e.state) {
       case TrackingState::initialising:
+      case TrackingState::untracked:
         return std::nullopt;
       case TrackingState::tracking:
         return Sentence{"tracking", "Tracking.", Urgency::notice};
@@ -24,6 +25,15 @@ struct BodyToSentence {
   }
   std::optional<Sentence> operator()(const DeleteEvent& e) const {
     return Sentence{object(e.id), e.object + " deleted."};
+  }
+  std::optional<Sentence> operator()(const GestureEvent& e) const {
+    return Sentence{"hand " + std::to_string(e.hand), e.name.empty() ? "" : e.name + "."};
+  }
+  std::optional<Sentence> operator()(const HighlightEvent& e) const {
+    return Sentence{"pointed at", e.name + "."};
+  }
+  std::optional<Sentence> operator()(const LabelEvent& e) const {
+    return Sentence{"label " + e.text, e.text + "."};
   }
   // A voice that cannot speak need not say so.
   std::optional<Sentence> operator()(const FaultEvent& e) const {

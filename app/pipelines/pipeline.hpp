@@ -1,11 +1,12 @@
-// The workspace experience: a depth camera tracked against the map it builds, with things that a
-// person stands in that map. Capture, tracking, mapping, composing and drawing, each a stage.
+// What a run does between its sensor and its picture: one graph of stages, whose parts are chosen
+// by the experience.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <string>
 
+#include "app/pipelines/hands_stage.hpp"
 #include "app/pipelines/narrator.hpp"
 #include "app/pipelines/presenter.hpp"
 #include "app/runtime/event_log.hpp"
@@ -17,8 +18,10 @@
 
 namespace armsreach::app {
 
-struct WorkspaceOptions {
-  SensorInfoPtr sensor;  // of the rig, that is tracked and shown
+struct PipelineOptions {
+  SensorInfoPtr sensor;  // of the rig, that is shown
+  bool workspace = true;
+  std::optional<HandsSetup> hands;  // what the wearable experience needs; nothing: without it
   Pace pace = Pace::live;
   std::optional<std::int64_t> frames;
   std::string trajectory;  // files to write, or ""
@@ -30,7 +33,7 @@ struct WorkspaceOptions {
 
 // What a run came to, also written as JSON with `stats`.
 struct RunSummary {
-  std::int64_t frames = 0;          // that came out of the tracker
+  std::int64_t frames = 0;          // that were looked at
   std::int64_t tracked_frames = 0;  // with a pose that can be trusted
   double seconds = 0;               // wall time, with opening and finishing
   double rate = 0;                  // Hz, while frames came
@@ -38,9 +41,8 @@ struct RunSummary {
   double latency_p95 = 0;
 };
 
-// `world` is gone on with; without a map in it the run makes its own.
-Result<RunSummary> run_workspace(Rig& rig, Presenter& presenter, EventLog& log,
-                                 const Config& config, const WorkspaceOptions& options,
-                                 SavedWorld world);
+// `world` is gone on with; without a map in it the workspace makes its own.
+Result<RunSummary> run_pipeline(Rig& rig, Presenter& presenter, EventLog& log, const Config& config,
+                                const PipelineOptions& options, SavedWorld world);
 
 }  // namespace armsreach::app
