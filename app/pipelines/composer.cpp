@@ -31,7 +31,8 @@ render::Severity severity_of(const Event& event) {
                                                         : render::Severity::info;
 }
 
-// What is worth a line of text; the rest is shown where it happens.
+// What is worth a line of text; the rest is shown where it happens, and what is said is about an
+// event that is shown itself.
 struct BodyToText {
   std::string operator()(const TrackingEvent& e) const {
     return std::string(armsreach::name(e.state));
@@ -151,10 +152,6 @@ void Composer::add_objects(const WorldView* world, render::Scene* scene) {
 
 void Composer::add_messages(Timestamp now, render::Scene* scene) {
   for (const Event& event : log_.recent()) {
-    // What is said is about an event that is shown itself.
-    if (now - event.time > kMessageTime || std::holds_alternative<SpeechEvent>(event.body))
-      continue;
-    scene->messages.push_back({severity_of(event), std::visit(BodyToText{}, event.body)});
     if (now - event.time > kMessageTime) continue;
     const std::string text = std::visit(BodyToText{}, event.body);
     if (!text.empty()) scene->messages.push_back({severity_of(event), text});

@@ -100,8 +100,6 @@ struct SpeechEvent {
 
 struct Event {
   Timestamp time;
-  std::variant<TrackingEvent, InsertEvent, MoveEvent, DeleteEvent, FaultEvent, SpeechEvent> body;
-  std::variant<TrackingEvent, InsertEvent, MoveEvent, DeleteEvent, GazeEvent, FaultEvent> body;
   std::variant<TrackingEvent, InsertEvent, MoveEvent, DeleteEvent, GestureEvent, HighlightEvent,
                LabelEvent, AcceptEvent, RejectEvent, GazeEvent, FaultEvent, SpeechEvent>
       body;
