@@ -191,7 +191,7 @@ std::vector<Eigen::AlignedBox3d> WorldRenderer::boxes_beside() const {
   return boxes;
 }
 
-// Once more what moving things may shade, where it is seen. With their shadows it costs five times
+// Once more what moving things may shade, where it is seen. With their shadows it costs four times
 // as much as without.
 void WorldRenderer::draw_shadows(const Pose& world_from_camera,
                                  const std::vector<Pose>& world_from_thing) const {
