@@ -26,8 +26,8 @@ class HandPainter {
 
   // Takes up the hands' postures and places at this time, in the world.
   void set_time(double time, const Pose& world_from_camera);
-  // As they are then. `lighting` is in the world's frame, but for its eye, which is the camera's.
-  // Surface ids are 1 for the first hand, 2 for the second.
+  // As they are then, with skin as fine as that camera can see. `lighting` is in the world's frame,
+  // but for its eye, which is the camera's. Surface ids are 1 for the first hand, 2 for the second.
   Raster::Images draw(Raster& raster, const Pose& world_from_camera, const Lighting& lighting);
 
  private:

@@ -26,6 +26,8 @@ class Raster {
  public:
   explicit Raster(const Camera& camera);
 
+  const Camera& camera() const { return camera_; }
+
   void clear();
   // Triangles that reach behind the near plane (2 cm) are left out. What spans point to must stay
   // until the images have been read.
