@@ -22,7 +22,7 @@ struct HoldFigures {
 };
 HoldFigures hold_figures(const GazeRun& run);
 
-// The target leapt and then stood still for a second, without a word from the controller's side.
+// Where the target leapt and then stood still for a second.
 struct StepFigures {
   int steps = 0;
   double size = 0;       // rad, of the largest

@@ -104,7 +104,7 @@ class Loop {
     sample.saccade = saccade_;
     sample.off = std::atan2(in_camera.head<2>().norm(), in_camera.z());
     sample.bearing = {std::atan2(in_camera.x(), in_camera.z()),
-                      std::atan2(in_camera.y(), in_camera.z())};
+                      std::atan2(in_camera.y(), std::hypot(in_camera.x(), in_camera.z()))};
     sample.central = in_central_half(camera_, in_camera);
     sample.torsion = std::asin((world_from_camera.rotation() * Vector3d::UnitX()).z());
     sample.angles = frame.truth->gimbal->angles;

@@ -25,8 +25,10 @@ namespace armsreach {
 
 struct GazeSettings {
   double distance = 0.5;  // m, of what is followed, where nobody measures it
-  PointNoise followed{0.006, 6, 0.3};
-  PointNoise fixated{0.002, 4, 0.3};
+  // Calmer than a hand that is measured exactly would need: prediction through 0.15 s makes five
+  // times as much of the noise of a blob's place otherwise.
+  PointNoise followed{0.012, 1, 0.3};
+  PointNoise fixated{0.002, 2, 0.3};
   // s beyond the gimbal's lag for which the target is predicted: the axes take about this long for
   // the way between two commands.
   double lead = 0.025;

@@ -9,7 +9,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kGate = 5;            // standard deviations
+constexpr double kGate = 3;            // standard deviations
 constexpr double kUnknownSpeed = 0.5;  // rad/s rms of a point just seen
 
 // Singer's transition for acceleration' = -acceleration / correlation.
