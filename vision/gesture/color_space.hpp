@@ -52,7 +52,7 @@ class ColorProjection {
   using Coefficients = std::array<std::int16_t, 3>;  // of B, G, R, in 2^-15 cells
 
   static constexpr int kOne = 64;       // a cell
-  static constexpr int kTruncated = 2;  // what three products lose, about
+  static constexpr int kTruncated = 3;  // the most that three products lose
   static constexpr int kMiddle = (kUvSide + 1) * kOne / 2 + kTruncated;  // of the middle cell
 
   static Coefficients fixed(const cv::Vec3d& cells, const cv::Vec3f& gain) {
