@@ -225,7 +225,8 @@ void add_calibrate_skin(CLI::App& calibrate_verb, Task* task) {
   command->add_option("--frames", o->frames, "of the live view")
       ->capture_default_str()
       ->check(at_least_one, "COUNT");
-  auto* model = command->add_option("--model", o->model, "start from this model [built in]");
+  auto* model = command->add_option(
+      "--model", o->model, "start from this model [built in]; simulated: of simulated hands");
   auto* balance = command->add_flag(
       "--balance", o->balance, "only balance the user's own --model for another light or camera");
   balance->needs(model);
