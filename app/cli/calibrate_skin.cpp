@@ -199,11 +199,12 @@ Status calibrate(const CalibrateSkinOptions& options) {
   auto f1 = quality(lessons, options.balance);
   if (!f1) return f1.error();
   if (auto written = write_model_file(options.out, *model); !written) return written;
-  std::printf("%s: from %zu views", options.out.c_str(), lessons.views().size());
+  const std::size_t views = lessons.views().size();
+  std::printf("%s: from %zu view%s", options.out.c_str(), views, views > 1 ? "s" : "");
   if (lessons.refused() > 0) std::printf(" (%d not usable)", lessons.refused());
   std::printf(", F1 %.3f %s%s\n", *f1,
               options.masks.empty() ? "against what was taken for the hand" : "against the masks",
-              lessons.views().size() > 1 ? ", each view left out in turn" : "");
+              views > 1 ? ", each view left out in turn" : "");
   if (*f1 < 0.8) std::printf("skin and background are alike here: try another light or place\n");
   return ok();
 }
@@ -224,7 +225,8 @@ void add_calibrate_skin(CLI::App& calibrate_verb, Task* task) {
   command->add_option("--frames", o->frames, "of the live view")
       ->capture_default_str()
       ->check(at_least_one, "COUNT");
-  auto* model = command->add_option("--model", o->model, "start from this model [built in]");
+  auto* model = command->add_option(
+      "--model", o->model, "start from this model [built in]; simulated: of simulated hands");
   auto* balance = command->add_flag(
       "--balance", o->balance, "only balance the user's own --model for another light or camera");
   balance->needs(model);
