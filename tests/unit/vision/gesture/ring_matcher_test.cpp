@@ -36,7 +36,8 @@ double definition_of_g(const cv::Mat& seen, const cv::Mat& known, int shift,
                        const RingLayout& layout) {
   const auto sample = [&](const cv::Mat& mask, int ring, int angle) {
     const cv::Moments m = cv::moments(mask, true);
-    const double r = layout.radii[static_cast<std::size_t>(ring)] * std::sqrt(m.m00);
+    const double r =
+        std::sqrt(m.m00) * static_cast<double>(layout.radii[static_cast<std::size_t>(ring)]);
     const double theta = 2 * std::numbers::pi * angle / layout.samples;
     const cv::Point at(static_cast<int>(std::lround(m.m10 / m.m00 + r * std::cos(theta))),
                        static_cast<int>(std::lround(m.m01 / m.m00 + r * std::sin(theta))));
