@@ -117,12 +117,13 @@ void RingMatcher::search(const RingSignature& seen, bool mirrored, const Shifts&
 
 // Distances rise from the best turn about evenly to both sides: its place between the steps is
 // where those before and those after are level.
-double RingMatcher::angle_of(const TurnedSignature& seen, const Best& best) const {
+double RingMatcher::angle_of(const RingSignature& seen, const RingMatch& best) const {
   const int samples = set_.layout.samples;
   const GestureTemplate& known = set_.templates[static_cast<std::size_t>(best.index)];
+  const TurnedSignature twice = turned(best.mirrored ? mirrored(seen, set_.layout) : seen);
   const auto distance = [&](int shift) {
     std::uint32_t sum = 0;
-    kernels_.mismatches(seen, bytes_of(known.signature), (shift + samples) % samples, 1, 1, &sum);
+    kernels_.mismatches(twice, bytes_of(known.signature), (shift + samples) % samples, 1, 1, &sum);
     return static_cast<double>(sum);
   };
   double tilt = 0;   // sum of what is before, less what is after
@@ -147,12 +148,11 @@ std::vector<RingMatch> RingMatcher::match(const RingSignature& seen, Hands hands
   const RingSignature mirror = mirrored(seen, set_.layout);
   if (hands == Hands::both)
     search(mirror, true, straight ? shifts_around(-*straight) : all_shifts(), &best);
-  const TurnedSignature twice = turned(seen);
-  const TurnedSignature mirror_twice = turned(mirror);
   std::vector<RingMatch> matches;
   for (const Best& one : best) {
     const double g = 1 - 2.0 * one.distance / set_.layout.total_weight();
-    const double angle = angle_of(one.mirrored ? mirror_twice : twice, one);
+    const double turn = std::remainder(one.shift * set_.layout.step(), 2 * std::numbers::pi);
+    const double angle = one.mirrored ? -turn : turn;
     matches.push_back({one.index, one.shift, one.mirrored, g, angle});
   }
   return matches;
