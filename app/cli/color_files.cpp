@@ -116,9 +116,11 @@ Status write_model_file(const std::string& path, const gesture::ColorModel& mode
 }
 
 Result<gesture::ColorModel> skin_model(const std::string& path) {
-  if (!path.empty()) return read_model_file(path);
-  std::istringstream in{std::string(render::asset("skin/default.yaml"))};
-  return gesture::read_color_model(in, "skin/default.yaml");
+  const bool built_in = path.empty() || path == "simulated";
+  if (!built_in || file_exists(path)) return read_model_file(path);
+  const std::string name = path.empty() ? "skin/default.yaml" : "skin/simulated.yaml";
+  std::istringstream in{std::string(render::asset(name))};
+  return gesture::read_color_model(in, name);
 }
 
 }  // namespace armsreach::app

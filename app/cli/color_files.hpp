@@ -28,7 +28,8 @@ Result<cv::Mat> read_mask_of(const std::filesystem::path& picture, const std::st
 Result<gesture::ColorModel> read_model_file(const std::string& path);
 Status write_model_file(const std::string& path, const gesture::ColorModel& model);
 
-// The file's, or the program's own where `path` is empty.
+// The file's; the program's own of people where `path` is empty, and of simulated hands where it is
+// "simulated".
 Result<gesture::ColorModel> skin_model(const std::string& path);
 
 }  // namespace armsreach::app
