@@ -15,7 +15,7 @@ constexpr int kCoarse = 3;  // steps between the turns that are always looked at
 // side and 35 to the other, and a hand bent towards the camera foreshortens.
 constexpr double kWristRange = 45 * std::numbers::pi / 180;
 
-constexpr int kLevelSteps = 3;  // to both sides, for the angle between steps: 12 deg at K = 45
+constexpr int kLevelSteps = 4;  // to both sides, for the angle between steps: 16 deg at K = 45
 
 const std::uint8_t* bytes_of(const RingSignature& signature) { return signature.planes[0].data(); }
 
