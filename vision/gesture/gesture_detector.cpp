@@ -73,7 +73,8 @@ std::vector<HandBlob> find_hands(const HandFinder& finder, const cv::Mat& skin,
   auto blobs = finder.find(skin);
   if (blobs.empty() || blobs[0].plausible) return blobs;
   auto parted = finder.find(without_walls(bgr, skin));
-  const bool better = !parted.empty() && parted[0].plausible;
+  const double least = finder.options().least_area_alone * static_cast<double>(skin.total());
+  const bool better = !parted.empty() && parted[0].plausible && parted[0].readings[0].area >= least;
   return better ? parted : blobs;
 }
 

@@ -16,9 +16,9 @@ namespace armsreach::gesture {
 struct GestureDetectorOptions {
   HandFinderOptions hands;
   Hands templates = Hands::both;
-  // g of a gesture that is told. (The paper's tau is 0.7; with these rings cupboards reach 0.88.)
-  double least_score = 0.88;
-  double least_margin = 0.005;  // by which it exceeds every other gesture's
+  // g of a gesture that is told. (The paper's tau is 0.7; with these rings cupboards reach 0.9.)
+  double least_score = 0.9;
+  double least_margin = 0.01;  // by which it exceeds every other gesture's
 };
 
 // How far a hand that is straight on its forearm is turned from upright, rad clockwise; nothing
