@@ -210,8 +210,9 @@ std::vector<HandBlob> HandFinder::find(const cv::Mat& mask) const {
     const HandShape& first = blob.readings[0];
     const double hand_share = first.area / static_cast<double>(mask.total());
     const double most = contact.pixels > 0 ? options_.most_area : options_.most_area_inside;
+    const double least = first.to_arm ? options_.least_area : options_.least_area_alone;
     blob.plausible =
-        hand_share >= options_.least_area && hand_share <= most &&
+        hand_share >= least && hand_share <= most &&
         blob.contact < options_.most_contact * std::sqrt(cv::contourArea(blob.outline)) * factor;
     for (cv::Point& point : blob.outline)
       point = (point + one.origin) * factor + cv::Point(factor / 2, factor / 2);

@@ -12,7 +12,10 @@ namespace armsreach::gesture {
 struct HandFinderOptions {
   int most_hands = 2;
   double least_area = 0.01;  // of a hand without forearm, of the image
-  double most_area = 0.30;
+  // Of one without an arm, or that had to be parted from a wall: cupboards and screens look like
+  // it.
+  double least_area_alone = 0.05;
+  double most_area = 0.45;
   // How much of its outline a blob has on the image's border, in units of the root of its own
   // area: a forearm that comes into the image is narrower, a wall broader.
   double most_contact = 1.3;
@@ -46,6 +49,8 @@ class HandFinder {
 
   // `mask`: CV_8UC1, 0 off the skin. The largest blobs first.
   std::vector<HandBlob> find(const cv::Mat& mask) const;
+
+  const HandFinderOptions& options() const { return options_; }
 
  private:
   HandFinderOptions options_;
