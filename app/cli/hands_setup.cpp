@@ -50,7 +50,7 @@ class Looking {
       : skin_(std::move(skin), {.adaptation = gesture::SkinOptions::Adaptation::stream}),
         hands_(std::move(templates)),
         reach_(reach) {
-    if (colors) things_.emplace(*std::move(colors), config.reach);
+    if (colors) things_.emplace(*std::move(colors));
   }
 
   Sighting look(const Frame& frame) {
