@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kWearablePeople = 24;
+constexpr int kWearablePeople = 30;
 constexpr int kNumeralPeople = 16;
 
 gesture::TemplateSet bank_of(const std::vector<BankExample>& examples) {

@@ -61,7 +61,7 @@ HandPose open_fingers_together(const HandAnatomy& anatomy, Random& random) {
   return with(open, {{thumb_radial, random.uniform(5, 35)}, {thumb_palmar, random.uniform(0, 20)}});
 }
 HandPose fist_thumb_aside(const HandAnatomy& anatomy, Random& random) {
-  return with(usual<Gesture::fist>(anatomy, random), {{thumb_radial, random.uniform(10, 25)},
+  return with(usual<Gesture::fist>(anatomy, random), {{thumb_radial, random.uniform(4, 14)},
                                                       {thumb_palmar, random.uniform(15, 30)},
                                                       {thumb_mcp, 5},
                                                       {thumb_ip, 5}});
@@ -69,7 +69,7 @@ HandPose fist_thumb_aside(const HandAnatomy& anatomy, Random& random) {
 // Around something the size of a glass.
 HandPose grasp_round(const HandAnatomy& anatomy, Random& random) {
   const HandPose open = closed_up(usual<Gesture::open>(anatomy, random), 0);
-  return blend(usual<Gesture::zero>(anatomy, random), open, random.uniform(0.2, 0.45));
+  return blend(usual<Gesture::zero>(anatomy, random), open, random.uniform(0.1, 0.3));
 }
 // Straight fingers on the thumb, as around a sheet of paper.
 HandPose grasp_flat(const HandAnatomy& anatomy, Random& random) {
@@ -82,6 +82,17 @@ HandPose grasp_flat(const HandAnatomy& anatomy, Random& random) {
                      {thumb_mcp, 10},
                      {thumb_ip, 10}});
 }
+// The same with fingers bent along their length, a beak in the arm's direction.
+HandPose grasp_beak(const HandAnatomy& anatomy, Random& random) {
+  HandPose pose = usual<Gesture::zero>(anatomy, random);
+  const double mcp = random.uniform(25, 50);
+  const double pip = random.uniform(25, 45);
+  for (const Finger finger : kFingers) pose = curled(pose, finger, mcp, pip, 20);
+  return with(pose, {{thumb_radial, random.uniform(12, 25)},
+                     {thumb_palmar, random.uniform(35, 50)},
+                     {thumb_mcp, 5},
+                     {thumb_ip, 5}});
+}
 
 constexpr Manner kWearable[] = {{"point", usual<Gesture::point>, -40, 40},
                                 {"point", point_over_ring, -20, 70},
@@ -89,13 +100,14 @@ constexpr Manner kWearable[] = {{"point", usual<Gesture::point>, -40, 40},
                                 {"L", usual<Gesture::L>, -40, 40},
                                 {"open", usual<Gesture::open>, -40, 40},
                                 {"open", open_fingers_together, -40, 40},
-                                {"fist", usual<Gesture::fist>, -40, 40},
-                                {"fist", fist_thumb_aside, -40, 40},
+                                {"open", open_fingers_together, -60, 60},
+                                {"fist", usual<Gesture::fist>, -30, 30},
+                                {"fist", fist_thumb_aside, -25, 25},
                                 {"grasp", usual<Gesture::grasp>, -20, 70},
-                                {"grasp", usual<Gesture::pinch>, 20, 80},
-                                {"grasp", usual<Gesture::zero>, 20, 80},
-                                {"grasp", grasp_round, 10, 90},
-                                {"grasp", grasp_flat, 20, 100}};
+                                {"grasp", usual<Gesture::zero>, 40, 90},
+                                {"grasp", grasp_round, 30, 90},
+                                {"grasp", grasp_flat, 50, 110},
+                                {"grasp", grasp_beak, 50, 110}};
 // A zero is shown from the little finger's side.
 constexpr Manner kNumerals[] = {
     {"0", usual<Gesture::zero>, 28, 62},   {"1", usual<Gesture::one>, -17, 17},

@@ -132,7 +132,7 @@ Status read_settings(const YAML::Node& root, const std::string& where, ColorMode
     model->level = *level;
   }
   if (root["balance"]) {
-    auto balance = read_channels(root["balance"], where, 0.1F, 10);
+    auto balance = read_channels(root["balance"], where, 0.25F, 3.9F);
     if (!balance) return std::move(balance).error();
     model->balance = *balance;
   }

@@ -1,7 +1,9 @@
 #include "vision/gesture/gesture_detector.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "vision/gesture/hand_separation.hpp"
@@ -33,6 +35,9 @@ Eigen::Vector2d farthest_along(const std::vector<cv::Point>& outline, const Eige
   return tip;
 }
 
+// Sampling at eight angles within a step averages out which side of a pixel's edge samples fall on.
+constexpr std::array kPhases{-0.4375, -0.3125, -0.1875, -0.0625, 0.0625, 0.1875, 0.3125, 0.4375};
+
 }  // namespace
 
 std::optional<double> straight_angle(const HandShape& shape) {
@@ -50,6 +55,17 @@ GestureTemplate template_of(const std::string& gesture, const HandShape& shape,
                             const RingLayout& layout) {
   const auto straight = straight_angle(shape);
   return {gesture, signature_of(shape, layout, straight.value_or(0)), straight.has_value()};
+}
+
+double fine_angle(const RingMatcher& matcher, const HandShape& shape, const RingMatch& match) {
+  const RingLayout& layout = matcher.set().layout;
+  double sum = 0;
+  for (const double phase : kPhases) {
+    const double turn = phase * layout.step();
+    const double angle = matcher.angle_of(signature_of(shape, layout, turn), match) + turn;
+    sum += std::remainder(angle - match.angle, 2 * std::numbers::pi);
+  }
+  return std::remainder(match.angle + sum / kPhases.size(), 2 * std::numbers::pi);
 }
 
 std::vector<HandBlob> find_hands(const HandFinder& finder, const cv::Mat& skin,
@@ -85,7 +101,7 @@ HandObservation GestureDetector::observe(const HandBlob& blob) const {
   const auto [best, second] = best_two(matches);
   if (best != nullptr) {
     seen.score = best->g;
-    seen.angle = best->angle;
+    seen.angle = fine_angle(matcher_, *shape, *best);
     const double margin = second == nullptr ? 1 : best->g - second->g;
     if (blob.plausible && best->g >= options_.least_score && margin >= options_.least_margin)
       seen.gesture = matcher_.gestures()[static_cast<std::size_t>(best - matches.data())];

@@ -16,8 +16,9 @@ namespace armsreach::gesture {
 struct GestureDetectorOptions {
   HandFinderOptions hands;
   Hands templates = Hands::both;
-  double least_score = 0.7;    // g of a gesture that is told [paper: tau]
-  double least_margin = 0.02;  // by which it exceeds every other's
+  // g of a gesture that is told. (The paper's tau is 0.7; with these rings cupboards reach 0.88.)
+  double least_score = 0.88;
+  double least_margin = 0.005;  // by which it exceeds every other gesture's
 };
 
 // How far a hand that is straight on its forearm is turned from upright, rad clockwise; nothing
@@ -30,6 +31,10 @@ RingSignature signature_of(const HandShape& shape, const RingLayout& layout, dou
 // A gesture learnt from one example: turned so that its forearm points down, where it has one.
 GestureTemplate template_of(const std::string& gesture, const HandShape& shape,
                             const RingLayout& layout);
+
+// The match's angle, finer than the step between samples: turned copies of a hand agree within half
+// a degree.
+double fine_angle(const RingMatcher& matcher, const HandShape& shape, const RingMatch& match);
 
 // The blobs of a mask, parted from walls by `bgr` where the largest is no hand.
 std::vector<HandBlob> find_hands(const HandFinder& finder, const cv::Mat& skin, const cv::Mat& bgr);

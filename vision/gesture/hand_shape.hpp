@@ -12,7 +12,7 @@ namespace armsreach::gesture {
 struct HandFinderOptions {
   int most_hands = 2;
   double least_area = 0.01;  // of a hand without forearm, of the image
-  double most_area = 0.30;
+  double most_area = 0.45;
   // How much of its outline a blob has on the image's border, in units of the root of its own
   // area: a forearm that comes into the image is narrower, a wall broader.
   double most_contact = 1.3;

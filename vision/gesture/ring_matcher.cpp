@@ -15,6 +15,8 @@ constexpr int kCoarse = 3;  // steps between the turns that are always looked at
 // side and 35 to the other, and a hand bent towards the camera foreshortens.
 constexpr double kWristRange = 45 * std::numbers::pi / 180;
 
+constexpr int kLevelSteps = 3;  // to both sides, for the angle between steps: 12 deg at K = 45
+
 const std::uint8_t* bytes_of(const RingSignature& signature) { return signature.planes[0].data(); }
 
 }  // namespace
@@ -113,17 +115,28 @@ void RingMatcher::search(const RingSignature& seen, bool mirrored, const Shifts&
   }
 }
 
-// Distances rise from the best turn about evenly to both sides, so its place between the steps is
-// where two lines of equal slope meet.
-double RingMatcher::angle_of(const TurnedSignature& seen, const Best& best) const {
+// Distances rise from the best turn about evenly to both sides: its place between the steps is
+// where those before and those after are level.
+double RingMatcher::angle_of(const RingSignature& seen, const RingMatch& best) const {
   const int samples = set_.layout.samples;
-  std::array<std::uint32_t, 3> near;
-  kernels_.mismatches(seen,
-                      bytes_of(set_.templates[static_cast<std::size_t>(best.index)].signature),
-                      (best.shift + samples - 1) % samples, 1, 3, near.data());
-  const double before = near[0], at = near[1], after = near[2];
-  const double slope = std::max(before, after) - at;
-  const double between = slope > 0 ? 0.5 * (before - after) / slope : 0;
+  const GestureTemplate& known = set_.templates[static_cast<std::size_t>(best.index)];
+  const TurnedSignature twice = turned(best.mirrored ? mirrored(seen, set_.layout) : seen);
+  const auto distance = [&](int shift) {
+    std::uint32_t sum = 0;
+    kernels_.mismatches(twice, bytes_of(known.signature), (shift + samples) % samples, 1, 1, &sum);
+    return static_cast<double>(sum);
+  };
+  double tilt = 0;   // sum of what is before, less what is after
+  double slope = 0;  // of a step, summed over the same pairs
+  double nearest = 0;
+  for (int away = 1; away <= kLevelSteps; ++away) {
+    const double before = distance(best.shift - away);
+    const double after = distance(best.shift + away);
+    if (away == 1) nearest = before + after;
+    tilt += before - after;
+    slope = (before + after - nearest) / std::max(1, 2 * (away - 1));
+  }
+  const double between = slope > 0 ? std::clamp(tilt / (2 * kLevelSteps * slope), -1.0, 1.0) : 0;
   const double angle = (best.shift + between) * set_.layout.step();
   return std::remainder(best.mirrored ? -angle : angle, 2 * std::numbers::pi);
 }
@@ -135,12 +148,11 @@ std::vector<RingMatch> RingMatcher::match(const RingSignature& seen, Hands hands
   const RingSignature mirror = mirrored(seen, set_.layout);
   if (hands == Hands::both)
     search(mirror, true, straight ? shifts_around(-*straight) : all_shifts(), &best);
-  const TurnedSignature twice = turned(seen);
-  const TurnedSignature mirror_twice = turned(mirror);
   std::vector<RingMatch> matches;
   for (const Best& one : best) {
     const double g = 1 - 2.0 * one.distance / set_.layout.total_weight();
-    const double angle = angle_of(one.mirrored ? mirror_twice : twice, one);
+    const double turn = std::remainder(one.shift * set_.layout.step(), 2 * std::numbers::pi);
+    const double angle = one.mirrored ? -turn : turn;
     matches.push_back({one.index, one.shift, one.mirrored, g, angle});
   }
   return matches;

@@ -23,7 +23,7 @@ struct RingMatch {
   int shift = 0;          // what is seen at angle i + shift is the template's at angle i
   bool mirrored = false;  // in the mirror image of what is seen
   double g = -1;
-  double angle = 0;  // rad, clockwise, between the shifts; of the hand, not of its mirror image
+  double angle = 0;  // rad, clockwise, to whole steps; of the hand, not of its mirror image
 };
 
 class RingMatcher {
@@ -36,6 +36,10 @@ class RingMatcher {
   // forearm that was seen is turned from upright; nothing where no forearm was seen.
   std::vector<RingMatch> match(const RingSignature& seen, Hands hands,
                                const std::optional<double>& straight = std::nullopt) const;
+
+  // The angle between what is seen and the match's template, rad clockwise, below the step between
+  // samples. What is seen may be sampled anew, up to half a step turned.
+  double angle_of(const RingSignature& seen, const RingMatch& match) const;
 
  private:
   struct Best {
@@ -55,7 +59,6 @@ class RingMatcher {
   Shifts shifts_around(double angle) const;
   void search(const RingSignature& seen, bool mirrored, const Shifts& upright,
               std::vector<Best>* best) const;
-  double angle_of(const TurnedSignature& seen, const Best& best) const;
 
   TemplateSet set_;
   RingKernels kernels_;

@@ -16,7 +16,9 @@ cv::Vec3b bytes(const cv::Scalar& color) {
 TEST(ColorSpace, GreysOfAnyBrightnessShareTheMiddleCell) {
   const ColorProjection projection;
   for (int level = 0; level < 256; ++level) {
-    const ColorCell cell = projection(level, level, level);
+    const ColorCell cell =
+        projection({static_cast<std::uint8_t>(level), static_cast<std::uint8_t>(level),
+                    static_cast<std::uint8_t>(level)});
     EXPECT_EQ(cell.u, kUvSide / 2) << level;
     EXPECT_EQ(cell.v, kUvSide / 2) << level;
     EXPECT_EQ(cell.luma, level * kLumas / 256) << level;
@@ -24,11 +26,11 @@ TEST(ColorSpace, GreysOfAnyBrightnessShareTheMiddleCell) {
 }
 
 TEST(ColorSpace, PureColoursReachTheEndsWithoutLeavingThePlane) {
-  const ColorProjection projection({4, 4, 4});
-  EXPECT_EQ(projection(255, 0, 0).u, kUvSide - 1);
-  EXPECT_EQ(projection(0, 0, 255).v, kUvSide - 1);
-  EXPECT_EQ(projection(0, 255, 0).u, 0);
-  EXPECT_EQ(projection(255, 255, 255).luma, kLumas - 1);
+  const ColorProjection projection({3, 3, 3});
+  EXPECT_EQ(projection({255, 0, 0}).u, kUvSide - 1);
+  EXPECT_EQ(projection({0, 0, 255}).v, kUvSide - 1);
+  EXPECT_EQ(projection({0, 255, 0}).u, 0);
+  EXPECT_EQ(projection({255, 255, 255}).luma, kLumas - 1);
 }
 
 TEST(ColorTable, TheLikelierClassWinsAndTheUnseenIsBackground) {
@@ -51,10 +53,10 @@ TEST(ColorTable, PosteriorsFollowBayes) {
   const ColorProjection projection;
   for (int b = 0; b < 256; ++b) {
     for (int r = 0; r < 256; ++r) {
-      const ColorCell at = projection(b, 128, r);
+      const cv::Vec3b color(static_cast<std::uint8_t>(b), 128, static_cast<std::uint8_t>(r));
+      const ColorCell at = projection(color);
       if (at.u == cell.u && at.v == cell.v) {
-        EXPECT_NEAR(table.at({static_cast<std::uint8_t>(b), 128, static_cast<std::uint8_t>(r)}),
-                    204, 1);
+        EXPECT_NEAR(table.at(color), 204, 1);
       }
     }
   }
@@ -63,9 +65,9 @@ TEST(ColorTable, PosteriorsFollowBayes) {
 TEST(ColorTable, BrightnessTellsWhiteFromBlackOnlyWhereAsked) {
   ColorModel model;
   const ColorProjection projection;
-  model.background.add(projection(20, 20, 20), 100);
+  model.background.add(projection({20, 20, 20}), 100);
   model.classes.push_back({"white ball", {}});
-  model.classes[0].pixels.add(projection(230, 230, 230), 100);
+  model.classes[0].pixels.add(projection({230, 230, 230}), 100);
   model.with_luma = true;
   const ColorTable table = ColorTable::winners(model);
   EXPECT_EQ(table.at({230, 230, 230}), 1);

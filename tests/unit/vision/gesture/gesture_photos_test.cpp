@@ -51,7 +51,7 @@ TEST(GesturePhotos, NumeralsOfUnseenPeople) {
   }
   std::cout << "right " << rates.share(rates.right) << ", wrong " << rates.share(rates.wrong)
             << " of " << rates.all << '\n';
-  EXPECT_GE(rates.share(rates.right), 0.85);  // announced; see DESIGN's 0.93 for the best gesture
+  EXPECT_GE(rates.share(rates.right), 0.85);
   EXPECT_LE(rates.share(rates.wrong), 0.05);
 }
 
