@@ -1,5 +1,6 @@
 #include "app/cli/hands_setup.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -31,15 +32,26 @@ Result<gesture::GestureTable> read_table(const std::string& path) {
   return gesture::read_gesture_table(in, path);
 }
 
+// `mask` with every part made larger by a share of its width on all sides.
+cv::Mat grown(const cv::Mat& mask, double share) {
+  const int radius = std::max(1, cvRound(share * mask.cols));
+  cv::Mat larger;
+  cv::dilate(mask, larger,
+             cv::getStructuringElement(cv::MORPH_RECT, {2 * radius + 1, 2 * radius + 1}));
+  return larger;
+}
+
 // Wood and walls have the colour of skin, but are farther away than a wearer's own hand. What has
-// no depth may be too near to have one.
+// no depth may be too near to have one; beside something far it is that one's edge.
 cv::Mat within_reach(const cv::Mat& skin, const Frame& frame, double reach) {
   if (frame.depth.empty() || !frame.sensor->registered) return skin;
-  cv::Mat far = frame.depth > reach;
-  if (far.size() != skin.size()) cv::resize(far, far, skin.size(), 0, 0, cv::INTER_NEAREST);
-  cv::Mat near = skin.clone();
-  near.setTo(0, far);
-  return near;
+  const cv::Mat far = frame.depth > reach;
+  const cv::Mat near = frame.depth <= reach;
+  cv::Mat gone = far | (grown(far, 0.02) & ~grown(near, 0.005));
+  if (gone.size() != skin.size()) cv::resize(gone, gone, skin.size(), 0, 0, cv::INTER_NEAREST);
+  cv::Mat left = skin.clone();
+  left.setTo(0, gone);
+  return left;
 }
 
 // Looks at one image after the other, on one thread.
@@ -50,7 +62,7 @@ class Looking {
       : skin_(std::move(skin), {.adaptation = gesture::SkinOptions::Adaptation::stream}),
         hands_(std::move(templates)),
         reach_(reach) {
-    if (colors) things_.emplace(*std::move(colors), config.reach);
+    if (colors) things_.emplace(*std::move(colors));
   }
 
   Sighting look(const Frame& frame) {
