@@ -33,6 +33,7 @@ Config tour() {
   config.height = 720;
   config.layout = "wearer";
   config.gesture.insert = "cube";
+  config.gesture.reach = 0.55;  // the wooden table comes nearer than an arm
   config.actions = {insert(40, 330, 330, "teapot"), insert(65, 456, 335, "cube"),
                     insert(90, 75, 300, "axes"), show(120, "operator"), show(360, "wearer")};
   return config;

@@ -28,6 +28,13 @@ std::vector<json> events_of(const std::filesystem::path& file, const std::string
   return events;
 }
 
+// Faults of the hands; images without a calibration are a fault of their own.
+std::vector<json> hands_faults(const std::filesystem::path& file) {
+  std::vector<json> faults = events_of(file, "fault");
+  std::erase_if(faults, [](const json& fault) { return fault["component"] != "hands"; });
+  return faults;
+}
+
 std::vector<std::string> run_of(const TemporaryFolder& folder, const std::string& source,
                                 const std::string& experience) {
   return {"run",
@@ -54,7 +61,7 @@ TEST(EndToEndWearable, AScriptedHandIsUnderstoodInOrderAndInsertsWhereItPoints) 
   for (const json& event : events_of(folder / "e.jsonl", "gesture")) {
     if (!event["name"].is_null()) told.push_back(event["name"]);
   }
-  // The script's, each once or more, with nothing else between them.
+  // What comes in between, on the way from one posture to the next, is not for this test.
   told.erase(std::unique(told.begin(), told.end()), told.end());
   EXPECT_THAT(told, ::testing::IsSupersetOf({"point", "L", "open", "fist", "grasp"}));
   const auto first = [&told](const std::string& name) {
@@ -102,7 +109,7 @@ TEST(EndToEndWearable, APlainColourCameraIsNotTracked) {
   ASSERT_EQ(run.exit_code, 0) << run.output;
   EXPECT_THAT(run.output, ::testing::Not(HasSubstr("tracked")));
   EXPECT_TRUE(events_of(folder / "e.jsonl", "tracking").empty());
-  EXPECT_TRUE(events_of(folder / "e.jsonl", "fault").empty());
+  EXPECT_TRUE(hands_faults(folder / "e.jsonl").empty());
   const json stages = json::parse(read_text(folder / "s.json"))["stages"];
   EXPECT_EQ(stages["hands"]["frames"], 5);
   EXPECT_FALSE(stages.contains("tracking"));
@@ -117,7 +124,7 @@ TEST(EndToEndWearable, GreyImagesAreOneFaultWithARemedy) {
   }
   const ProgramResult run = run_armsreach(run_of(folder, "images:" + images.string(), "wearable"));
   ASSERT_EQ(run.exit_code, 0) << run.output;
-  const auto faults = events_of(folder / "e.jsonl", "fault");
+  const auto faults = hands_faults(folder / "e.jsonl");
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_THAT(faults[0]["remedy"].get<std::string>(), HasSubstr("colour"));
   EXPECT_EQ(json::parse(read_text(folder / "s.json"))["frames"], 5);
