@@ -35,7 +35,8 @@ std::vector<MonoSlam::Look> MonoSlam::expected_looks() const {
   return out;
 }
 
-std::optional<Vector2d> MonoSlam::look_for(Landmark* landmark, const Prediction& prediction) const {
+std::optional<Vector2d> MonoSlam::look_for(Landmark* landmark, const Prediction& prediction,
+                                           double deviations) const {
   const Point& point = filter_.point(landmark->id);
   Template pattern = landmark->patch.original();
   if (point.kind == PointKind::position) {
@@ -44,7 +45,7 @@ std::optional<Vector2d> MonoSlam::look_for(Landmark* landmark, const Prediction&
   }
   const auto match = search(image_, pattern,
                             ellipse(prediction.sighting.pixel - pattern.pixel_from_centre,
-                                    prediction.covariance, options_.search_deviations),
+                                    prediction.covariance, deviations),
                             options_.least_score);
   if (!match) return std::nullopt;
   landmark->latest = pattern;
@@ -66,9 +67,10 @@ int MonoSlam::take(const std::vector<Look*>& group, const std::vector<Measuremen
 // The points whose place in the image is least certain tell most, so they are sought first; what
 // they tell makes the search for all others short and sure. Points at uncertain distances tell
 // little about the camera and come with the others.
-void MonoSlam::measure(std::vector<Look>* looks) {
+void MonoSlam::measure(double deviations) {
+  looks_ = expected_looks();
   std::vector<Look*> order;
-  for (Look& look : *looks) order.push_back(&look);
+  for (Look& look : looks_) order.push_back(&look);
   const auto known = [&](const Look* look) {
     return filter_.point(look->prediction.id).kind == PointKind::position;
   };
@@ -81,7 +83,7 @@ void MonoSlam::measure(std::vector<Look>* looks) {
   std::vector<Look*> found;
   std::vector<Measurement> measurements;
   const auto seek = [&](Look* look, const Prediction& prediction) {
-    look->measured = look_for(&landmarks_[look->landmark], prediction);
+    look->measured = look_for(&landmarks_[look->landmark], prediction, deviations);
     if (!look->measured) return;
     measurements.push_back({prediction, *look->measured});
     look->innovation = measurements.back().innovation();

@@ -167,9 +167,10 @@ void MonoSlam::start_as_stated(const MonoInput& input) {
 void MonoSlam::track(const MonoInput& input) {
   const double seconds = std::max(0.0, seconds_from_timestamp(input.time - *last_time_));
   filter_.predict(seconds, options_.motion, input.control);
-  looks_ = expected_looks();
-  measure(&looks_);
-  count_inliers();
+  measure(options_.search_deviations);
+  if (count_inliers() < options_.least_inliers) measure(options_.jerk_deviations);
+  inliers_ = count_inliers();
+  poor_frames_ = inliers_ < options_.least_inliers ? poor_frames_ + 1 : 0;
   if (poor_frames_ >= options_.patience) {
     state_ = TrackingState::lost;
     return;
@@ -182,11 +183,10 @@ void MonoSlam::track(const MonoInput& input) {
   }
 }
 
-void MonoSlam::count_inliers() {
-  inliers_ = static_cast<int>(std::count_if(looks_.begin(), looks_.end(), [](const Look& look) {
+int MonoSlam::count_inliers() const {
+  return static_cast<int>(std::count_if(looks_.begin(), looks_.end(), [](const Look& look) {
     return look.outcome == Outcome::measured;
   }));
-  poor_frames_ = inliers_ < options_.least_inliers ? poor_frames_ + 1 : 0;
 }
 
 void MonoSlam::find_again() {
@@ -224,7 +224,7 @@ void MonoSlam::find_again() {
     measurements.push_back({look.prediction, *look.measured});
   }
   take(group, measurements);
-  count_inliers();
+  inliers_ = count_inliers();
   poor_frames_ = 0;
   state_ = TrackingState::relocalised;
 }

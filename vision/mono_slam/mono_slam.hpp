@@ -31,13 +31,15 @@ struct MonoSlamOptions {
   MotionNoise motion;
   double pixel_sigma = 0.5;  // of a measurement, px
   double search_deviations = 3;
+  // When that finds too little the camera was jerked: once more, farther.
+  double jerk_deviations = 9;
   double least_score = 0.9;  // ZNCC of a match
   ConsensusOptions consensus;
   LandmarkRules rules;
   InterestOptions interest;
   RelocaliserOptions relocaliser;
 
-  int visible_points = 30;  // new ones are added while fewer are in view
+  int visible_points = 36;  // new ones are added while fewer are in view
   int most_points = 120;    // in the map
   int most_new = 3;         // a frame
   int patch_size = 15;      // px
@@ -144,7 +146,7 @@ class MonoSlam {
   void start_as_stated(const MonoInput& input);
   void start_at_origin();
   void track(const MonoInput& input);
-  void count_inliers();
+  int count_inliers() const;
   void find_again();
   void forget_target();
   MonoResult result(const MonoInput& input) const;
@@ -152,8 +154,9 @@ class MonoSlam {
   // measuring.cpp: one frame of the filter.
   std::vector<Look> expected_looks() const;
   std::optional<Prediction> expected(const Landmark& landmark) const;
-  void measure(std::vector<Look>* looks);
-  std::optional<Eigen::Vector2d> look_for(Landmark* landmark, const Prediction& prediction) const;
+  void measure(double deviations);
+  std::optional<Eigen::Vector2d> look_for(Landmark* landmark, const Prediction& prediction,
+                                          double deviations) const;
   int take(const std::vector<Look*>& group, const std::vector<Measurement>& measurements);
   void weigh_particles();
 
