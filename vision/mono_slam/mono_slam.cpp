@@ -235,12 +235,25 @@ void MonoSlam::forget_target() {
   }
 }
 
-void MonoSlam::enter(std::vector<Landmark> landmarks, const std::vector<Vector3d>& points_in_world,
-                     const Eigen::MatrixXd& covariance) {
+SparseMap MonoSlam::map() const {
+  SparseMap out;
+  std::vector<PointId> ids;
+  for (const Landmark& landmark : landmarks_) {
+    const Point& point = filter_.point(landmark.id);
+    if (point.kind != PointKind::position) continue;
+    ids.push_back(landmark.id);
+    out.landmarks.push_back(landmark);
+    out.points_in_world.push_back(point.position());
+  }
+  out.covariance = filter_.joint_covariance(ids);
+  return out;
+}
+
+void MonoSlam::enter(const SparseMap& map) {
   filter_.start(CameraState(), camera_covariance(Matrix6d::Identity()));
-  landmarks_ = std::move(landmarks);
-  const std::vector<PointId> ids = filter_.add_map(points_in_world, covariance);
-  landmarks_.resize(ids.size());
+  const std::vector<PointId> ids = filter_.add_map(map.points_in_world, map.covariance);
+  landmarks_.assign(map.landmarks.begin(),
+                    map.landmarks.begin() + static_cast<std::ptrdiff_t>(ids.size()));
   for (std::size_t i = 0; i < ids.size(); ++i) landmarks_[i].id = ids[i];
   scale_ = ScaleFrom::map;
   state_ = TrackingState::lost;

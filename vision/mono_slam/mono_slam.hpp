@@ -21,6 +21,7 @@
 #include "vision/mono_slam/interest.hpp"
 #include "vision/mono_slam/landmark.hpp"
 #include "vision/mono_slam/relocaliser.hpp"
+#include "vision/mono_slam/sparse_map.hpp"
 #include "vision/mono_slam/start_target.hpp"
 
 namespace armsreach::mono_slam {
@@ -125,9 +126,10 @@ class MonoSlam {
   const std::vector<Landmark>& landmarks() const { return landmarks_; }
   TrackingState state() const { return state_; }
 
+  // What can be kept: the points with three rows, as they are known now.
+  SparseMap map() const;
   // Enters a known map; the camera is lost in it until it recognises something.
-  void enter(std::vector<Landmark> landmarks, const std::vector<Eigen::Vector3d>& points_in_world,
-             const Eigen::MatrixXd& covariance);
+  void enter(const SparseMap& map);
 
  private:
   // One landmark in one frame.
