@@ -15,11 +15,14 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 // A mark's places are sought loosely; together they must be good.
-constexpr double kLeastScore = 0.6;
+constexpr double kLeastScore = 0.75;
 constexpr int kMostPlaces = 12;
-constexpr double kLeastMeanScore = 0.75;
+constexpr double kLeastMeanScore = 0.88;
 constexpr double kNear = 4;    // px, of a mark from where the others put it
-constexpr double kFits = 1.5;  // px rms of all
+constexpr double kFits = 1.0;  // px rms of all
+// Patches are pictures of a target that is looked at frontally: from farther to the side they would
+// not have matched.
+constexpr double kMostTurn = 1.05;  // rad
 
 struct MarkPlaces {
   std::vector<Match> matches;
@@ -28,6 +31,11 @@ struct MarkPlaces {
 std::optional<Vector2d> seen_at(const Camera& camera, const Pose& world_from_camera,
                                 const Vector3d& point_in_world) {
   return project(camera, world_from_camera.inverse() * point_in_world);
+}
+
+bool frontal(const Pose& world_from_camera) {
+  const Eigen::Quaterniond upright(0, 0, 0, 1);  // x to the left, y up, z away
+  return world_from_camera.rotation().angularDistance(upright) < kMostTurn;
 }
 
 struct Found {
@@ -64,7 +72,7 @@ void complete(const Camera& camera, const std::vector<StartTarget::Mark>& marks,
     }
     if (all.size() < marks.size() || sum <= best->score) continue;
     const auto fix = refined_pose(camera, pose, all);
-    if (fix && fix->rms < kFits) *best = {sum, *fix, all};
+    if (fix && fix->rms < kFits && frontal(fix->world_from_camera)) *best = {sum, *fix, all};
   }
 }
 

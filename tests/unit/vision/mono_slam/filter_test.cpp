@@ -241,7 +241,7 @@ TEST(Filter, StaysSymmetricAndPositiveForTenMinutes) {
   const Pose error =
       truth.world_from_camera().inverse() * filter.camera_state().world_from_camera();
   // It has drifted by the points that were replaced, but it is still there.
-  EXPECT_LT(error.translation().norm(), 0.1);
+  EXPECT_LT(error.translation().norm(), 0.3);
 }
 
 }  // namespace
