@@ -30,11 +30,17 @@ double thread_ms() {
 
 Camera camera() { return pinhole(320, 240, 200, 200, 159.5, 119.5); }
 
-Filter filter_with(int points) {
-  Filter filter(camera(), points, kSigma);
+Vector2d pixel_of(std::size_t point) {
+  return {20.0 + 28 * static_cast<double>(point % 11),
+          15.0 + 20 * static_cast<double>(point / 11 % 11)};
+}
+
+// A map of points before a camera that stands still.
+Filter filter_with(std::size_t points) {
+  Filter filter(camera(), static_cast<int>(points), kSigma);
   filter.start(CameraState(), 1e-4 * CameraCovariance::Identity());
-  for (int i = 0; i < points; ++i) {
-    filter.add_point({20.0 + 28 * (i % 11), 15.0 + 20 * (i / 11 % 11)}, 1 + 0.1 * (i % 7), 0.1);
+  for (std::size_t i = 0; i < points; ++i) {
+    filter.add_point(pixel_of(i), 1 + 0.1 * static_cast<double>(i % 7), 0.1);
   }
   return filter;
 }
@@ -44,8 +50,8 @@ std::vector<Measurement> measurements(const Filter& filter) {
   std::vector<Measurement> out;
   const auto ids = filter.ids();
   for (std::size_t i = 0; i < 12; ++i) {
-    const auto prediction = filter.predict(ids[i * ids.size() / 12]);
-    out.push_back({*prediction, prediction->sighting.pixel + Vector2d(0.1, -0.1)});
+    const std::size_t point = i * ids.size() / 12;
+    out.push_back({*filter.predict(ids[point]), pixel_of(point)});
   }
   return out;
 }
@@ -63,7 +69,7 @@ MatrixXd dense_jacobian(const Filter& filter, const std::vector<Measurement>& al
 }
 
 void update_beside_textbook(benchmark::State& state) {
-  Filter filter = filter_with(static_cast<int>(state.range(0)));
+  Filter filter = filter_with(static_cast<std::size_t>(state.range(0)));
   std::vector<int> all(12);
   std::iota(all.begin(), all.end(), 0);
   double ours = 0;
