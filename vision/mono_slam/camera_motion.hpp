@@ -38,6 +38,9 @@ CameraError difference(const CameraState& to, const CameraState& from);
 struct MotionNoise {
   double acceleration = 4;          // m/s^2, one deviation of each axis
   double angular_acceleration = 6;  // rad/s^2
+  // m / sqrt(s): what is recognised as a point slides over its surface as the view changes, so that
+  // a map is never known better than it is recognised.
+  double point_wander = 0;
 };
 
 // A motion that was commanded, on top of what the carrier does by itself: the camera's new pose in

@@ -67,6 +67,8 @@ void Filter::predict(double seconds, const MotionNoise& noise,
   const double angular_impulse = noise.angular_acceleration * seconds;
   p_.diagonal().segment<3>(6).array() += impulse * impulse;
   p_.diagonal().segment<3>(9).array() += angular_impulse * angular_impulse;
+  const double wander = noise.point_wander * noise.point_wander * seconds;
+  for (const Slot& slot : slots_) p_.diagonal().segment<3>(slot.row).array() += wander;
   scratch_.leftCols(rows_).noalias() = by_state * p_.topLeftCorner(kCameraRows, rows_);
   const CameraCovariance own = scratch_.leftCols<kCameraRows>() * by_state.transpose();
   p_.topLeftCorner(kCameraRows, rows_) = scratch_.leftCols(rows_);
