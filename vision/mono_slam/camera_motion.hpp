@@ -40,7 +40,7 @@ struct MotionNoise {
   double angular_acceleration = 6;  // rad/s^2
   // m / sqrt(s): what is recognised as a point slides over its surface as the view changes, so that
   // a map is never known better than it is recognised.
-  double point_wander = 0;
+  double point_wander = 1e-3;
 };
 
 // A motion that was commanded, on top of what the carrier does by itself: the camera's new pose in

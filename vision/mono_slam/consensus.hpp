@@ -14,7 +14,9 @@ namespace armsreach::mono_slam {
 
 struct ConsensusOptions {
   double pixel_tolerance = 1.0;  // of what supports a hypothesis, px
-  double gate = 5.99;            // squared Mahalanobis distance, 95 % of two dimensions
+  // Squared Mahalanobis distance. Narrow: the filter's noise allows for errors that persist, which
+  // a wrong match may not claim.
+  double gate = 3;
 };
 
 // Indices of those that agree, in order.

@@ -41,7 +41,7 @@ class Walk {
   // The squared error of the pose, in units of its claimed covariance.
   double step() {
     constexpr double kSeconds = 1.0 / 30;
-    const MotionNoise noise{0.5, 0.5};
+    const MotionNoise noise{0.5, 0.5, 0};
     for (int axis = 0; axis < 3; ++axis) {
       truth_.velocity[axis] += noise.acceleration * kSeconds * gaussian();
       truth_.angular_velocity[axis] += noise.angular_acceleration * kSeconds * gaussian();
