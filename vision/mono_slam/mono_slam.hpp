@@ -30,7 +30,7 @@ enum class NewPoints { particles, inverse_depth };
 
 struct MonoSlamOptions {
   MotionNoise motion;
-  double pixel_sigma = 0.5;  // of a measurement, px
+  double pixel_sigma = 0.75;  // of a measurement, px: a template's errors persist
   double search_deviations = 3;
   // When that finds too little the camera was jerked: once more, farther.
   double jerk_deviations = 9;
