@@ -104,6 +104,15 @@ std::string size_text(const cv::Size& size) {
   return std::to_string(size.width) + "x" + std::to_string(size.height);
 }
 
+bool is_image(const std::filesystem::path& file) {
+  std::string extension = file.extension();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::array known = {".jpg", ".jpeg", ".png", ".pgm", ".ppm", ".bmp"};
+  return std::find(known.begin(), known.end(), extension) != known.end() &&
+         file.stem().extension() != ".mask";
+}
+
 }  // namespace
 
 Result<cv::Mat> read_color_image(const std::filesystem::path& file) {
@@ -157,6 +166,25 @@ Status check_size(const cv::Size& size, const Camera& camera, const std::string&
   return Error{"the " + kind + " image is " + size_text(size) + ", its camera " +
                    size_text({camera.width, camera.height}),
                where, "give the camera file that belongs to these images with --camera"};
+}
+
+Result<std::vector<std::filesystem::path>> images_by_name(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  std::error_code failure;
+  for (std::filesystem::directory_iterator entry(folder, failure), end; !failure && entry != end;
+       entry.increment(failure)) {
+    if (is_image(entry->path())) files.push_back(entry->path());
+  }
+  if (failure) {
+    return Error{failure.message(), folder.string(),
+                 "give a folder of images; a video is opened with video:FILE"};
+  }
+  if (files.empty()) {
+    return Error{"no images in the folder", folder.string(),
+                 "give a folder with .jpg, .jpeg, .png, .pgm, .ppm or .bmp files"};
+  }
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 }  // namespace armsreach

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <opencv2/core/mat.hpp>
 
@@ -13,6 +14,10 @@ namespace armsreach {
 
 // CV_8UC3 BGR, or CV_8UC1 of a grey file.
 Result<cv::Mat> read_color_image(const std::filesystem::path& file);
+
+// A folder's images in the order of their names; pictures of masks (*.mask.png) are none. An error
+// where there are none.
+Result<std::vector<std::filesystem::path>> images_by_name(const std::filesystem::path& folder);
 
 // 16-bit single-channel file to CV_32F metres. 0 and the saturated 65535 are unknown: NaN.
 Result<cv::Mat> read_depth_image(const std::filesystem::path& file, double units_per_metre);

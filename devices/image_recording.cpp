@@ -55,33 +55,6 @@ class ImageRecording : public Recording {
   Events events_;
 };
 
-bool is_image(const fs::path& file) {
-  std::string extension = file.extension();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const std::array known = {".jpg", ".jpeg", ".png", ".pgm", ".ppm", ".bmp"};
-  return std::find(known.begin(), known.end(), extension) != known.end();
-}
-
-Result<std::vector<fs::path>> images_by_name(const fs::path& folder) {
-  std::vector<fs::path> files;
-  std::error_code failure;
-  for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end;
-       entry.increment(failure)) {
-    if (is_image(entry->path())) files.push_back(entry->path());
-  }
-  if (failure) {
-    return Error{failure.message(), folder.string(),
-                 "give a folder of images; a video is opened with video:FILE"};
-  }
-  if (files.empty()) {
-    return Error{"no images in the folder", folder.string(),
-                 "give a folder with .jpg, .jpeg, .png, .pgm, .ppm or .bmp files"};
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 // Of the first image that can be read; the others' errors are for whoever reads them.
 Result<cv::Size> first_size(const std::vector<fs::path>& files) {
   for (const fs::path& file : files) {

@@ -89,7 +89,20 @@ void draw_cursors(ImDrawList& list, const Fonts& fonts, const Scene& scene, cons
 
 ImVec2 pill_size(const ImFont& font, const std::string& text, bool with_dot) {
   const ImVec2 size = font.CalcTextSizeA(font.FontSize, 1e6F, 0, text.c_str());
-  return {std::ceil(size.x) + 2 * kPadX + (with_dot ? 3.5F * kDot : 0), font.FontSize + 2 * kPadY};
+  return {std::ceil(size.x) + 2 * kPadX + (with_dot ? 3.5F * kDot : 0), size.y + 2 * kPadY};
+}
+
+std::string wrapped(const ImFont& font, const std::string& text, float width) {
+  const float room = width - 2 * kPadX - 3.5F * kDot;
+  std::string lines;
+  const char* const end = text.c_str() + text.size();
+  for (const char* line = text.c_str(); line < end;) {
+    const char* next = font.CalcWordWrapPositionA(1, line, end, room);
+    if (next == line) ++next;  // not even one letter fits: a line of its own
+    lines.append(lines.empty() ? "" : "\n").append(line, next);
+    line = std::find_if(next, end, [](char c) { return c != ' '; });
+  }
+  return lines;
 }
 
 ImVec2 draw_pill(ImDrawList& list, ImFont& font, const ImVec2& corner_wanted,
@@ -100,7 +113,8 @@ ImVec2 draw_pill(ImDrawList& list, ImFont& font, const ImVec2& corner_wanted,
                      std::min(theme::kRounding, size.y / 2));
   float x = corner.x + kPadX;
   if (dot) {
-    list.AddCircleFilled({x + kDot, corner.y + size.y / 2}, kDot, imgui_color(*dot), 16);
+    list.AddCircleFilled({x + kDot, corner.y + kPadY + font.FontSize / 2}, kDot, imgui_color(*dot),
+                         16);
     x += 3.5F * kDot;
   }
   list.AddText(&font, font.FontSize, {x, corner.y + kPadY}, imgui_color(theme::kInk), text.c_str());

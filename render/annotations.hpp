@@ -17,6 +17,8 @@ void draw_annotations(ImDrawList& list, const Fonts& fonts, const Scene& scene, 
 // a coloured dot stands before the text.
 ImVec2 draw_pill(ImDrawList& list, ImFont& font, const ImVec2& corner, const std::string& text,
                  const theme::Color* dot = nullptr);
+// The text in as many lines as it takes for its pill to be no wider.
+std::string wrapped(const ImFont& font, const std::string& text, float width);
 ImVec2 pill_size(const ImFont& font, const std::string& text, bool with_dot = false);
 
 }  // namespace armsreach::render

@@ -157,8 +157,10 @@ void draw_messages(ImDrawList& list, const Fonts& fonts, const Scene& scene,
   for (auto message = scene.messages.rbegin(); message != scene.messages.rend() && shown < 3;
        ++message, ++shown) {
     const theme::Color color = severity_color(message->severity);
-    bottom -= pill_size(*fonts.text, message->text, true).y;
-    draw_pill(list, *fonts.text, {left, bottom}, message->text, &color);
+    const std::string text =
+        wrapped(*fonts.text, message->text, static_cast<float>(view.width) - 2 * margin);
+    bottom -= pill_size(*fonts.text, text, true).y;
+    draw_pill(list, *fonts.text, {left, bottom}, text, &color);
     bottom -= 6;
   }
 }

@@ -11,8 +11,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "app/cli/color_files.hpp"
 #include "app/cli/commands.hpp"
-#include "app/cli/image_inputs.hpp"
 #include "app/cli/rig_options.hpp"
 #include "app/pipelines/presenter.hpp"
 #include "app/runtime/interrupt.hpp"
@@ -80,7 +80,7 @@ std::string progress_text(const BoardCoverage& coverage) {
 }
 
 Result<Views> views_in_images(const CalibrateOptions& options, const Chessboard& board) {
-  auto files = image_files(options.images);
+  auto files = list_pictures(options.images);
   if (!files) return files.error();
   Views out;
   for (const fs::path& file : *files) {

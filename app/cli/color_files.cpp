@@ -19,31 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_picture(const fs::path& file) {
-  std::string extension = file.extension();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const std::array known = {".jpg", ".jpeg", ".png", ".pgm", ".ppm", ".bmp"};
-  return std::find(known.begin(), known.end(), extension) != known.end() &&
-         file.stem().extension() != ".mask";
-}
-
-Result<std::vector<fs::path>> pictures_in(const fs::path& folder) {
-  std::vector<fs::path> files;
-  std::error_code failure;
-  for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end;
-       entry.increment(failure)) {
-    if (is_picture(entry->path())) files.push_back(entry->path());
-  }
-  if (failure) return Error{failure.message(), folder.string(), "give a folder that can be read"};
-  if (files.empty()) {
-    return Error{"no pictures in the folder", folder.string(),
-                 "give a folder with .jpg, .jpeg, .png, .pgm, .ppm or .bmp files"};
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 // 8 bits of one or three channels, or 16 bits of one.
 Result<cv::Mat> read_any_mask(const fs::path& file) {
   if (auto labels = read_mask_image(file)) return labels;
@@ -68,7 +43,7 @@ Result<std::vector<fs::path>> list_pictures(const std::vector<std::string>& plac
       files.emplace_back(place);
       continue;
     }
-    auto inside = pictures_in(place);
+    auto inside = images_by_name(place);
     if (!inside) return inside;
     files.insert(files.end(), inside->begin(), inside->end());
   }

@@ -49,7 +49,7 @@ TEST(EndToEndCalibrateCamera, WrongInputIsSaid) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
       {{}, "images or a source"},
       {{"/no/such.jpg"}, "/no/such.jpg"},
-      {{folder / "empty"}, "holds no images"},
+      {{folder / "empty"}, "no images in the folder"},
       {{folder / "empty", "--board", "9by6"}, "9by6"},
       {{"--source", "sim:bench", "--frames", "3"}, "frames"},
   };

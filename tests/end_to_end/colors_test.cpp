@@ -136,7 +136,7 @@ TEST(EndToEndColors, BadInputIsExplained) {
   EXPECT_THAT(complaint({"calibrate", "skin", folder / "grey.png", "--out", out}),
               HasSubstr("grey picture"));
   EXPECT_THAT(complaint({"calibrate", "skin", folder / "empty", "--out", out}),
-              HasSubstr("no pictures in the folder"));
+              HasSubstr("no images in the folder"));
   EXPECT_THAT(complaint({"calibrate", "skin", folder / "plain.png", "--out", out}),
               HasSubstr("no view shows a hand"));
   EXPECT_THAT(complaint({"calibrate", "skin", folder / "plain.png", "--masks", folder / "masks",
