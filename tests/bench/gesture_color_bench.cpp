@@ -4,12 +4,14 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "tests/bench/beside.hpp"
 #include "tests/unit/vision/gesture/painted_skin.hpp"
 #include "vision/gesture/color_blobs.hpp"
 #include "vision/gesture/skin_segmenter.hpp"
 
 namespace {
 
+using namespace armsreach;
 using namespace armsreach::gesture;
 
 // Hand, wall and noise, so that the table is read all over.
@@ -20,48 +22,48 @@ cv::Mat picture() {
   return bgr;
 }
 
-void BM_SkinTableAndBox(benchmark::State& state) {
+// OpenCV's way.
+class BackProjection {
+ public:
+  BackProjection() {
+    const ColorLikelihood skin(test::general_model().classes[0].pixels, 0.01);
+    cv::Mat scaled;
+    cv::normalize(skin.uv, scaled, 0, 255, cv::NORM_MINMAX);
+    histogram_ = scaled.t();
+  }
+  void segment(const cv::Mat& bgr) {
+    const int channels[] = {2, 1};  // Cb, Cr as our u, v; rows are the first of a cv histogram
+    const float range[] = {0, 256};
+    const float* ranges[] = {range, range};
+    cv::cvtColor(bgr, ycrcb_, cv::COLOR_BGR2YCrCb);
+    cv::calcBackProject(&ycrcb_, 1, channels, histogram_, projected_, ranges);
+    cv::blur(projected_, projected_, {5, 5});
+    cv::threshold(projected_, mask_, 127, 255, cv::THRESH_BINARY);
+    benchmark::DoNotOptimize(mask_.data);
+  }
+
+ private:
+  cv::Mat histogram_, ycrcb_, projected_, mask_;
+};
+
+void skin_beside_back_projection(benchmark::State& state) {
   SkinSegmenter segmenter(test::general_model());
+  BackProjection peer;
   const cv::Mat bgr = picture();
-  for (auto _ : state) benchmark::DoNotOptimize(segmenter.segment(bgr).data);
-}
-BENCHMARK(BM_SkinTableAndBox)->Unit(benchmark::kMicrosecond);
-
-void BM_SkinTableAlone(benchmark::State& state) {
-  const ColorTable table = ColorTable::posteriors(test::general_model(), 0);
-  const cv::Mat bgr = picture();
-  cv::Mat posterior;
+  bench::Beside both;
   for (auto _ : state) {
-    table.apply(bgr, &posterior);
-    benchmark::DoNotOptimize(posterior.data);
+    both.ours([&] { benchmark::DoNotOptimize(segmenter.segment(bgr).data); });
+    both.peer([&] { peer.segment(bgr); });
   }
+  both.report(state);
 }
-BENCHMARK(BM_SkinTableAlone)->Unit(benchmark::kMicrosecond);
+BENCHMARK(skin_beside_back_projection)->Unit(benchmark::kMillisecond);
 
-void BM_SkinOpenCv(benchmark::State& state) {
-  const cv::Mat bgr = picture();
-  const ColorLikelihood skin(test::general_model().classes[0].pixels, 0.01);
-  cv::Mat histogram, ycrcb, projected, mask;
-  cv::normalize(skin.uv, histogram, 0, 255, cv::NORM_MINMAX);
-  const int channels[] = {2, 1};  // Cb, Cr as our u, v; rows are the first of a cv histogram
-  const float range[] = {0, 256};
-  const float* ranges[] = {range, range};
-  cv::Mat transposed = histogram.t();
-  for (auto _ : state) {
-    cv::cvtColor(bgr, ycrcb, cv::COLOR_BGR2YCrCb);
-    cv::calcBackProject(&ycrcb, 1, channels, transposed, projected, ranges);
-    cv::blur(projected, projected, {5, 5});
-    cv::threshold(projected, mask, 127, 255, cv::THRESH_BINARY);
-    benchmark::DoNotOptimize(mask.data);
-  }
-}
-BENCHMARK(BM_SkinOpenCv)->Unit(benchmark::kMicrosecond);
-
-void BM_SkinReestimation(benchmark::State& state) {
+void skin_reestimation(benchmark::State& state) {
   const ColorModel model = test::general_model();
   const cv::Mat bgr = test::hand_before(test::kBeigeColor);
   for (auto _ : state) benchmark::DoNotOptimize(reestimate_skin(model, 0, bgr).refused);
 }
-BENCHMARK(BM_SkinReestimation)->Unit(benchmark::kMicrosecond);
+BENCHMARK(skin_reestimation)->Unit(benchmark::kMillisecond);
 
 }  // namespace

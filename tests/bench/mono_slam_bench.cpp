@@ -2,13 +2,14 @@
 // frame. Peers take turns in one loop, so that their ratio holds on a busy machine.
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <numeric>
+#include <optional>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 #include <opencv2/imgproc.hpp>
 
+#include "tests/bench/beside.hpp"
 #include "tests/bench/textbook_ekf.hpp"
 #include "vision/mono_slam/mono_slam.hpp"
 #include "vision/mono_slam/search.hpp"
@@ -16,17 +17,12 @@
 namespace armsreach::mono_slam {
 namespace {
 
+using bench::Beside;
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kSigma = 0.5;
-
-double thread_ms() {
-  timespec now;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
 
 Camera camera() { return pinhole(320, 240, 200, 200, 159.5, 119.5); }
 
@@ -72,30 +68,24 @@ void update_beside_textbook(benchmark::State& state) {
   Filter filter = filter_with(static_cast<std::size_t>(state.range(0)));
   std::vector<int> all(12);
   std::iota(all.begin(), all.end(), 0);
-  double ours = 0;
-  double peers = 0;
+  Beside both;
   for (auto _ : state) {
     filter.predict(1.0 / 30, MotionNoise(), std::nullopt);
     const auto measured = measurements(filter);
     TextbookEkf peer{Eigen::VectorXd::Zero(filter.rows()), filter.covariance()};
     const MatrixXd h = dense_jacobian(filter, measured);
 
-    double start = thread_ms();
-    const JointInnovation& joint = filter.innovation(measured);
-    filter.update(all);
-    ours += thread_ms() - start;
-
-    start = thread_ms();
-    peer.update(h, joint.value, kSigma * kSigma);
-    peers += thread_ms() - start;
+    const JointInnovation* joint = nullptr;
+    both.ours([&] {
+      joint = &filter.innovation(measured);
+      filter.update(all);
+    });
+    both.peer([&] { peer.update(h, joint->value, kSigma * kSigma); });
     if ((peer.covariance - filter.covariance()).cwiseAbs().maxCoeff() > 1e-9) {
       state.SkipWithError("the two do not agree");
     }
   }
-  const double per = 1 / static_cast<double>(state.iterations());
-  state.counters["ours_ms"] = per * ours;
-  state.counters["peer_ms"] = per * peers;
-  state.counters["ratio"] = peers / ours;
+  both.report(state);
 }
 BENCHMARK(update_beside_textbook)
     ->ArgName("points")
@@ -126,26 +116,21 @@ void search_beside_match_template(benchmark::State& state) {
   const cv::Mat small = grey(cv::Rect(156, 111, 15, 15)).clone();
   const cv::Rect around(163 - radius - 7, 118 - radius - 7, 2 * radius + 15, 2 * radius + 15);
   const Region region = ellipse(pixel, radius * radius / 9.0 * Eigen::Matrix2d::Identity(), 3);
-  double ours = 0;
-  double peers = 0;
+  Beside both;
   cv::Mat scores;
   for (auto _ : state) {
-    double start = thread_ms();
-    const auto match = search(image, pattern, region, 0.8);
-    ours += thread_ms() - start;
-    start = thread_ms();
-    cv::matchTemplate(grey(around), small, scores, cv::TM_CCOEFF_NORMED);
+    std::optional<Match> match;
+    both.ours([&] { match = search(image, pattern, region, 0.8); });
     cv::Point best;
-    cv::minMaxLoc(scores, nullptr, nullptr, nullptr, &best);
-    peers += thread_ms() - start;
+    both.peer([&] {
+      cv::matchTemplate(grey(around), small, scores, cv::TM_CCOEFF_NORMED);
+      cv::minMaxLoc(scores, nullptr, nullptr, nullptr, &best);
+    });
     if (!match || (match->pixel - pixel).norm() > 0.5 || best.x != radius) {
       state.SkipWithError("not found");
     }
   }
-  const double per = 1e3 / static_cast<double>(state.iterations());
-  state.counters["ours_us"] = per * ours;
-  state.counters["peer_us"] = per * peers;
-  state.counters["ratio"] = peers / ours;
+  both.report(state);
 }
 BENCHMARK(search_beside_match_template)
     ->ArgName("radius")

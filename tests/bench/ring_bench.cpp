@@ -1,11 +1,14 @@
 // What telling a gesture costs: against templates, hands and K, beside cv::matchTemplate over the
 // same poses, and a whole frame.
+#include <numbers>
+
 #include <benchmark/benchmark.h>
 #include <opencv2/imgproc.hpp>
 
 #include "devices/sim/hand/gesture.hpp"
 #include "devices/sim/hand/silhouette.hpp"
 #include "devices/sim/random.hpp"
+#include "tests/bench/beside.hpp"
 #include "vision/gesture/gesture_detector.hpp"
 
 namespace {
@@ -48,6 +51,7 @@ RingSignature seen_hand(const RingLayout& layout) {
   return signature_of(blobs.at(0).readings.at(0), layout);
 }
 
+// A hand among templates at every turn.
 void ring_match(benchmark::State& state) {
   const auto templates = static_cast<int>(state.range(0));
   const RingLayout layout = linear_rings(static_cast<int>(state.range(1)));
@@ -57,33 +61,59 @@ void ring_match(benchmark::State& state) {
 }
 BENCHMARK(ring_match)
     ->ArgNames({"templates", "k"})
-    ->ArgsProduct({{3, 30, 100, 300, 600}, {45}})
-    ->ArgsProduct({{300}, {15, 30, 90, 120}})
-    ->Unit(benchmark::kMicrosecond);
+    ->ArgsProduct({{300}, {15, 30, 45, 90, 120}})
+    ->Unit(benchmark::kMillisecond);
 
-// The same poses: every template, turned by every step, against the hand's image at its size.
-void match_template(benchmark::State& state) {
-  const int templates = static_cast<int>(state.range(0));
-  constexpr int kSide = 64;
-  constexpr int kTurns = 90;
-  std::vector<cv::Mat> turned;
-  for (int turn = 0; turn < kTurns; ++turn) {
-    cv::Mat one;
-    cv::resize(hand(sim::Gesture::open, 160, 2 * 3.14159 * turn / kTurns), one, {kSide, kSide});
-    turned.push_back(one);
+// The same poses by images: every template, turned by every step, against the hand's image at its
+// size.
+class TurnedImages {
+ public:
+  explicit TurnedImages(int turns) {
+    for (int turn = 0; turn < turns; ++turn) {
+      turned_.push_back(image(sim::Gesture::open, 2 * std::numbers::pi * turn / turns));
+    }
+    seen_ = image(sim::Gesture::L, 0);
   }
-  cv::Mat seen, score;
-  cv::resize(hand(sim::Gesture::L, 160, 0), seen, {kSide, kSide});
-  for (auto _ : state) {
-    for (int i = 0; i < templates; ++i) {
-      for (const cv::Mat& one : turned) {
-        cv::matchTemplate(seen, one, score, cv::TM_CCORR_NORMED);
-        benchmark::DoNotOptimize(score.data);
-      }
+  void match() {
+    for (const cv::Mat& one : turned_) {
+      cv::matchTemplate(seen_, one, score_, cv::TM_CCORR_NORMED);
+      benchmark::DoNotOptimize(score_.data);
     }
   }
+
+ private:
+  static cv::Mat image(sim::Gesture gesture, double roll) {
+    cv::Mat small;
+    cv::resize(hand(gesture, 160, roll), small, {64, 64});
+    return small;
+  }
+  std::vector<cv::Mat> turned_;
+  cv::Mat seen_;
+  cv::Mat score_;
+};
+
+void match_beside_match_template(benchmark::State& state) {
+  const auto templates = static_cast<int>(state.range(0));
+  const RingLayout layout = linear_rings();
+  const RingMatcher matcher(bank(layout, templates));
+  const RingSignature seen = seen_hand(layout);
+  TurnedImages images(layout.samples);
+  bench::Beside both;
+  for (auto _ : state) {
+    both.ours([&] { benchmark::DoNotOptimize(matcher.match(seen, Hands::as_learnt)); });
+    both.peer([&] {
+      for (int i = 0; i < templates; ++i) images.match();
+    });
+  }
+  both.report(state);
 }
-BENCHMARK(match_template)->ArgNames({"templates"})->Arg(3)->Arg(30)->Unit(benchmark::kMicrosecond);
+BENCHMARK(match_beside_match_template)
+    ->ArgName("templates")
+    ->Arg(3)
+    ->Arg(30)
+    ->Arg(100)
+    ->Arg(300)
+    ->Unit(benchmark::kMillisecond);
 
 // Shape and gesture of a frame's hands from its mask, 320x240.
 void gestures_of_a_frame(benchmark::State& state) {
@@ -98,7 +128,7 @@ void gestures_of_a_frame(benchmark::State& state) {
 }
 BENCHMARK(gestures_of_a_frame)
     ->ArgNames({"templates", "hands"})
-    ->ArgsProduct({{3, 300}, {1, 2}})
-    ->Unit(benchmark::kMicrosecond);
+    ->ArgsProduct({{3, 30, 100, 300}, {1, 2}})
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
