@@ -9,12 +9,12 @@
 namespace armsreach::sim {
 
 HandStage::HandStage(const World& world, const Camera& camera,
-                     std::function<Pose(double)> world_from_carrier)
+                     std::function<Pose(double)> world_from_carrier, const Shoulders& shoulders)
     : things_(world.things.size()),
       light_(world.light),
       camera_(camera),
       world_from_carrier_(std::move(world_from_carrier)),
-      painter_(world.hands, poses_of(world.things)),
+      painter_(world.hands, {poses_of(world.things), shoulders}),
       raster_(camera),
       holding_(world, painter_.actors(), world_from_carrier_) {
   if (world.infrared) worn_.emplace(world.hands.front(), *world.infrared, poses_of(world.things));

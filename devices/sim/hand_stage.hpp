@@ -19,9 +19,9 @@ namespace armsreach::sim {
 class HandStage {
  public:
   // `world_from_carrier`: where the camera would be at any time if no gimbal turned it; what hands
-  // before the camera are before.
+  // before the camera are before. `shoulders`: of who wears the camera, or none.
   HandStage(const World& world, const Camera& camera,
-            std::function<Pose(double)> world_from_carrier);
+            std::function<Pose(double)> world_from_carrier, const Shoulders& shoulders);
 
   std::vector<PlacedThing> held(double time) const { return holding_.at(time); }
   std::vector<HandTruth> truth(double time) const;

@@ -63,7 +63,7 @@ HandDescription hand_from(YamlMap map) {
     if (!tone) throw Complaint{"'" + map.path("skin") + "': there is no skin '" + skin + "'"};
     hand.skin = *tone;
   }
-  hand.straight = map.number("straight", 0, 1, 0);
+  if (map.find("shoulder")) hand.shoulder = map.vector<3>("shoulder");
   hand.sleeve = static_cast<bool>(map.find("sleeve"));
   if (hand.sleeve) hand.sleeve_color = map.color("sleeve");
   const YAML::Node keys = map.need("keys");

@@ -51,9 +51,11 @@ class SimSource final : public Source {
                                             world.sensor.gimbal_script);
     }
     if (world.hands.empty()) return;
-    hands_.emplace(world, sensor_->camera(), [this](double time) {
+    const auto world_from_carrier = [this](double time) {
       return carrier_(time) * camera_on_mount(Eigen::Vector3d::Zero());
-    });
+    };
+    hands_.emplace(world, sensor_->camera(), world_from_carrier,
+                   shoulders_of(world, world.sensor, mixed(options.seed, kForPath)));
   }
 
   const std::shared_ptr<const SensorInfo>& sensor() const override { return sensor_; }

@@ -1,16 +1,34 @@
 #include "devices/sim/hand/hand_painter.hpp"
 
+#include "devices/sim/hand/arm.hpp"
 #include "devices/sim/hand/place.hpp"
 
 namespace armsreach::sim {
 
-struct HandPainter::Body {
-  HandSurface surface;
+// One surface as it is now.
+struct HandPainter::Cover {
   std::vector<Eigen::Vector3f> colors;
   PosedSurface in_world;
   std::vector<float> openness;
   std::vector<Eigen::Vector3f> in_camera;
   std::vector<Eigen::Vector3f> seen;
+
+  void look(const Pose& camera_from_world, const Lighting& lighting) {
+    seen = lit(colors, openness, in_world, lighting);
+    const Eigen::Matrix3f turn = camera_from_world.rotation_matrix().cast<float>();
+    const Eigen::Vector3f shift = camera_from_world.translation().cast<float>();
+    in_camera.resize(in_world.positions.size());
+    for (std::size_t i = 0; i < in_camera.size(); ++i)
+      in_camera[i] = turn * in_world.positions[i] + shift;
+  }
+};
+
+struct HandPainter::Body {
+  HandSurface surface;
+  UpperArm upper_arm;
+  Cover hand;
+  Cover arm;
+  bool has_arm = false;  // now
 };
 
 namespace {
@@ -25,15 +43,19 @@ void put_on_glove(const HandSurface& surface, std::vector<Eigen::Vector3f>& colo
 }  // namespace
 
 HandPainter::HandPainter(const std::vector<HandDescription>& hands,
-                         const ThingPoses& world_from_thing) {
+                         const HandSurroundings& surroundings) {
   for (const HandDescription& hand : hands) {
-    const HandActor& actor = actors_.emplace_back(hand, world_from_thing);
+    const HandActor& actor = actors_.emplace_back(hand, surroundings);
     HandSurfaceOptions options;
     options.sleeve = hand.sleeve;
-    options.straight = hand.straight;
-    Body body{HandSurface(actor.anatomy(), options), {}, {}, {}, {}, {}};
-    body.colors = colors_of(body.surface, hand.skin, hand.sleeve_color);
-    if (hand.glove) put_on_glove(body.surface, body.colors);
+    Body body{
+        HandSurface(actor.anatomy(), options), UpperArm(actor.anatomy(), hand.sleeve), {}, {}};
+    body.hand.colors = colors_of(body.surface, hand.skin, hand.sleeve_color);
+    if (hand.glove) put_on_glove(body.surface, body.hand.colors);
+    const Eigen::Vector3f bare = colors_of(hand.skin).back;
+    body.arm.colors.assign(body.upper_arm.size(),
+                           hand.sleeve ? Eigen::Vector3f(hand.sleeve_color.cast<float>()) : bare);
+    body.arm.openness.assign(body.upper_arm.size(), 1.0F);
     bodies_.push_back(std::move(body));
   }
 }
@@ -50,11 +72,17 @@ std::vector<HandTruth> HandPainter::truth(double time, const Pose& world_from_ca
 void HandPainter::set_time(double time, const Pose& world_from_camera) {
   for (std::size_t i = 0; i < actors_.size(); ++i) {
     const HandActor& actor = actors_[i];
+    const bool left = actor.description().left;
     Body& body = bodies_[i];
-    const HandSkeleton skeleton = skeleton_of(actor.anatomy(), actor.pose(time));
-    body.surface.pose(skeleton, body.in_world);
-    body.openness = openness(skeleton, actor.anatomy(), body.in_world);
-    place(actor.world_from_hand(time, world_from_camera), actor.description().left, body.in_world);
+    const HandMoment moment = actor.at(time, world_from_camera);
+    const HandSkeleton skeleton = skeleton_of(actor.anatomy(), moment.pose);
+    body.surface.pose(skeleton, body.hand.in_world);
+    body.hand.openness = openness(skeleton, actor.anatomy(), body.hand.in_world);
+    place(moment.world_from_hand, left, body.hand.in_world);
+    body.has_arm = moment.arm.has_value();
+    if (!body.has_arm) continue;
+    body.upper_arm.pose(*moment.arm, body.arm.in_world);
+    place(moment.world_from_hand, left, body.arm.in_world);
   }
 }
 
@@ -62,16 +90,15 @@ Raster::Images HandPainter::draw(Raster& raster, const Pose& world_from_camera,
                                  const Lighting& lighting) {
   raster.clear();
   const Pose camera_from_world = world_from_camera.inverse();
-  const Eigen::Matrix3f turn = camera_from_world.rotation_matrix().cast<float>();
-  const Eigen::Vector3f shift = camera_from_world.translation().cast<float>();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Body& body = bodies_[i];
-    body.seen = lit(body.colors, body.openness, body.in_world, lighting);
-    body.in_camera.resize(body.in_world.positions.size());
-    for (std::size_t k = 0; k < body.in_camera.size(); ++k)
-      body.in_camera[k] = turn * body.in_world.positions[k] + shift;
-    raster.draw({body.in_camera, body.seen, body.surface.rest().triangles,
-                 actors_[i].description().left, static_cast<std::uint8_t>(i + 1)});
+    const bool left = actors_[i].description().left;
+    const auto id = static_cast<std::uint8_t>(i + 1);
+    body.hand.look(camera_from_world, lighting);
+    raster.draw({body.hand.in_camera, body.hand.seen, body.surface.rest().triangles, left, id});
+    if (!body.has_arm) continue;
+    body.arm.look(camera_from_world, lighting);
+    raster.draw({body.arm.in_camera, body.arm.seen, body.upper_arm.triangles(), left, id});
   }
   return raster.images();
 }

@@ -16,7 +16,7 @@ namespace armsreach::sim {
 class HandPainter {
  public:
   explicit HandPainter(const std::vector<HandDescription>& hands,
-                       const ThingPoses& world_from_thing = {});
+                       const HandSurroundings& surroundings = {});
   ~HandPainter();
   HandPainter(HandPainter&&) noexcept;
   HandPainter& operator=(HandPainter&&) noexcept;
@@ -31,6 +31,7 @@ class HandPainter {
   Raster::Images draw(Raster& raster, const Pose& world_from_camera, const Lighting& lighting);
 
  private:
+  struct Cover;
   struct Body;
   std::vector<HandActor> actors_;
   std::vector<Body> bodies_;

@@ -123,16 +123,6 @@ HandSurface::HandSurface(const HandAnatomy& anatomy, const HandSurfaceOptions& o
   bindings_.reserve(rest_.vertices.size());
   for (const Vector3f& vertex : rest_.vertices)
     bindings_.push_back(bound(vertex, lobes_, flesh, clothing));
-  if (options.straight > 0) straighten(options.straight);
-}
-
-// Draws the arm's rear half out.
-void HandSurface::straighten(double by) {
-  const float elbow = static_cast<float>(anatomy_.forearm_length);
-  for (Vector3f& vertex : rest_.vertices) {
-    const float share = std::clamp(-vertex.y() / elbow * 2 - 1, 0.0F, 1.0F);
-    vertex.y() -= share * share * static_cast<float>(by);
-  }
 }
 
 // Evens the net's vertices out along the surface and brings them onto it.
