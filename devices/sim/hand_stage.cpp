@@ -16,12 +16,23 @@ HandStage::HandStage(const World& world, const Camera& camera,
       world_from_carrier_(std::move(world_from_carrier)),
       painter_(world.hands, {poses_of(world.things), shoulders}),
       raster_(camera),
-      holding_(world, painter_.actors(), world_from_carrier_) {
+      holding_(world, painter_.actors(), world_from_carrier_),
+      contacts_(world) {
   if (world.infrared) worn_.emplace(world.hands.front(), *world.infrared, poses_of(world.things));
 }
 
 std::vector<HandTruth> HandStage::truth(double time) const {
   return painter_.truth(time, world_from_carrier_(time));
+}
+
+std::vector<std::vector<std::pair<int, HandPart>>> HandStage::touched(
+    const std::vector<Pose>& world_from_thing) const {
+  std::vector<std::vector<std::pair<int, HandPart>>> touched;
+  for (std::size_t i = 0; i < painter_.actors().size(); ++i) {
+    touched.push_back(
+        contacts_.at(painter_.surface(i), painter_.skin(i).positions, world_from_thing));
+  }
+  return touched;
 }
 
 std::vector<TrueMarker> HandStage::markers(double time, const Pose& world_from_camera,

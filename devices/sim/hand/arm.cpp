@@ -49,9 +49,10 @@ Arm arm_to_shoulder(const HandAnatomy& anatomy, const HandPose& scripted, const 
   const double far = std::clamp(shoulder.norm(), 1.02 * std::abs(fore - upper) + 0.05,
                                 kStretched * (fore + upper));
   Arm arm;
-  arm.shoulder = far * shoulder.normalized();
+  arm.shoulder = shoulder;
   const Vector3d straight = behind_wrist(scripted[wrist_flexion], scripted[wrist_deviation]);
-  const Vector3d elbow = elbow_on_circle(arm.shoulder, fore, upper, straight + kHangs * down);
+  const Vector3d elbow =
+      elbow_on_circle(far * shoulder.normalized(), fore, upper, straight + kHangs * down);
   const Vector3d direction = elbow.normalized();
   HandPose pose = scripted;
   pose[wrist_flexion] = std::asin(std::clamp(direction.z(), -1.0, 1.0));
@@ -64,12 +65,12 @@ Arm arm_to_shoulder(const HandAnatomy& anatomy, const HandPose& scripted, const 
 }
 
 // Rings along a line whose ends are half balls.
-UpperArm::UpperArm(const HandAnatomy& anatomy, bool sleeve) {
+UpperArm::UpperArm(const HandAnatomy& anatomy, bool sleeve)
+    : length_(static_cast<float>(upper_arm_bone(anatomy))) {
   constexpr int kAround = 28;
   constexpr int kCap = 6;
   constexpr int kAlong = 14;
   constexpr float kHalfTurn = std::numbers::pi_v<float>;
-  const float length = static_cast<float>(upper_arm_bone(anatomy));
   const float over = sleeve ? kSleeveOverSkin : 0;
   const float thin = 0.98F * static_cast<float>(anatomy.forearm_radius) + over;
   const float thick = 1.3F * static_cast<float>(anatomy.forearm_radius) + over;
@@ -85,11 +86,11 @@ UpperArm::UpperArm(const HandAnatomy& anatomy, bool sleeve) {
     const float share = static_cast<float>(i) / kAlong;
     // Biceps and triceps stand out a little halfway.
     const float swell = 1 + 0.06F * std::sin(kHalfTurn * share);
-    rings.push_back({share * length, swell * (thin + share * (thick - thin)), 0});
+    rings.push_back({share * length_, swell * (thin + share * (thick - thin)), 0});
   }
   for (int i = 0; i <= kCap; ++i) {
     const float angle = kHalfTurn / 2 * static_cast<float>(i) / kCap;
-    rings.push_back({length + thick * std::sin(angle), thick * std::cos(angle), std::sin(angle)});
+    rings.push_back({length_ + thick * std::sin(angle), thick * std::cos(angle), std::sin(angle)});
   }
   for (const Ring& ring : rings) {
     for (int k = 0; k < kAround; ++k) {
@@ -112,14 +113,19 @@ UpperArm::UpperArm(const HandAnatomy& anatomy, bool sleeve) {
 }
 
 void UpperArm::pose(const Arm& arm, PosedSurface& out) const {
-  const Vector3d along = (arm.shoulder - arm.elbow).normalized();
+  const Vector3d bone = arm.shoulder - arm.elbow;
+  const float stretch = static_cast<float>(bone.norm()) / length_;
   const Eigen::Matrix3f turn =
-      Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitY(), along).toRotationMatrix().cast<float>();
+      Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitY(), bone).toRotationMatrix().cast<float>();
   const Vector3f elbow = arm.elbow.cast<float>();
   out.positions.resize(rest_.vertices.size());
   out.normals.resize(rest_.vertices.size());
   for (std::size_t i = 0; i < rest_.vertices.size(); ++i) {
-    out.positions[i] = turn * rest_.vertices[i] + elbow;
+    Vector3f point = rest_.vertices[i];
+    // Its rounded ends stay round.
+    const float along = std::clamp(point.y(), 0.0F, length_);
+    point.y() += (stretch - 1) * along;
+    out.positions[i] = turn * point + elbow;
     out.normals[i] = turn * normals_[i];
   }
 }

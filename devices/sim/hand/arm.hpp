@@ -26,9 +26,10 @@ struct Arm {
 };
 
 // The elbow may swing round the line from the shoulder to the wrist: it goes where the hand keeps
-// straightest behind it (bent only as `scripted` is) and hangs down. Who cannot reach as far leans
-// forward: the shoulder moves towards the wrist. A wrist at its limit bends no further; the elbow
-// is then a little off. `down` is a unit vector in the hand's frame.
+// straightest behind it (bent only as `scripted` is) and hangs down. Who cannot reach as far
+// stretches: the forearm points at the shoulder, and the upper arm is as long as it must be, which
+// stands for a shoulder and a trunk that come along. A wrist at its limit bends no further; the
+// elbow is then a little off. `down` is a unit vector in the hand's frame.
 Arm arm_to_shoulder(const HandAnatomy& anatomy, const HandPose& scripted,
                     const Eigen::Vector3d& shoulder, const Eigen::Vector3d& down);
 
@@ -43,6 +44,7 @@ class UpperArm {
   void pose(const Arm& arm, PosedSurface& out) const;
 
  private:
+  float length_;       // m, of its bone
   TriangleMesh rest_;  // y from the elbow to the shoulder
   std::vector<Eigen::Vector3f> normals_;
 };

@@ -46,6 +46,7 @@ HandActor::HandActor(const HandDescription& description, HandSurroundings surrou
 
 HandActor::Stretch HandActor::stretch(double time) const {
   const std::vector<HandKey>& keys = description_.keys;
+  if (description_.repeat > 0) time -= description_.repeat * std::floor(time / description_.repeat);
   const auto after = std::upper_bound(keys.begin(), keys.end(), time,
                                       [](double t, const HandKey& key) { return t < key.time; });
   if (after == keys.begin()) return {0, 0, 0};

@@ -69,6 +69,14 @@ std::vector<HandTruth> HandPainter::truth(double time, const Pose& world_from_ca
   return all;
 }
 
+const HandSurface& HandPainter::surface(std::size_t hand) const { return bodies_[hand].surface; }
+const PosedSurface& HandPainter::skin(std::size_t hand) const {
+  return bodies_[hand].hand.in_world;
+}
+const PosedSurface& HandPainter::upper_arm(std::size_t hand) const {
+  return bodies_[hand].arm.in_world;
+}
+
 void HandPainter::set_time(double time, const Pose& world_from_camera) {
   for (std::size_t i = 0; i < actors_.size(); ++i) {
     const HandActor& actor = actors_[i];

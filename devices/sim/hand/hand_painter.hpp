@@ -26,6 +26,11 @@ class HandPainter {
 
   // Takes up the hands' postures and places at this time, in the world.
   void set_time(double time, const Pose& world_from_camera);
+  const HandSurface& surface(std::size_t hand) const;
+  // Of the hand with its forearm, and of the upper arm (empty if it has none), in the world as they
+  // are then.
+  const PosedSurface& skin(std::size_t hand) const;
+  const PosedSurface& upper_arm(std::size_t hand) const;
   // As they are then. `lighting` is in the world's frame, but for its eye, which is the camera's.
   // Surface ids are 1 for the first hand, 2 for the second.
   Raster::Images draw(Raster& raster, const Pose& world_from_camera, const Lighting& lighting);

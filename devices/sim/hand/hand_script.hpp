@@ -43,6 +43,7 @@ struct HandDescription {
   // In the script's frame, m: whence the arm comes, with an elbow between. Where there is none, and
   // nobody wears the camera, the wrist is bent as the script says and the arm ends at the elbow.
   std::optional<Eigen::Vector3d> shoulder;
+  double repeat = 0;          // s, after which the keys begin anew; 0: they do not
   std::vector<HandKey> keys;  // times strictly increasing; rests at the first before it, at the
                               // last after it
 };
