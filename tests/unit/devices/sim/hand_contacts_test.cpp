@@ -79,5 +79,27 @@ TEST(HandContacts, OfAWorldNameTheFinger) {
   EXPECT_TRUE(index_touched);
 }
 
+// The gloved forefinger presses the tea packet at 4.2 s for a second, and nothing before.
+TEST(HandContacts, TheHapticHandReallyTouches) {
+  const auto source = open_source(
+      *parse_source_spec("sim:haptic-table,sensor=main,width=32,noise=none,rate=2,frames=11"), {},
+      sim_source_kinds());
+  ASSERT_TRUE(source.ok());
+  const std::pair<std::string, std::string> press("tea packet", "right hand/index");
+  for (int i = 0; i < 11; ++i) {
+    const FramePtr frame = *(*source)->next();
+    const auto& pairs = frame->truth->contacts;
+    const bool pressed = std::find(pairs.begin(), pairs.end(), press) != pairs.end();
+    const double time = 0.5 * i;
+    if (time < 4) {
+      EXPECT_TRUE(pairs.empty()) << time;
+    }
+    if (time >= 4.2 && time <= 5.2) {
+      EXPECT_TRUE(pressed) << time;
+    }
+    EXPECT_TRUE(frame->truth->hands[0].holds.empty());
+  }
+}
+
 }  // namespace
 }  // namespace armsreach::sim
