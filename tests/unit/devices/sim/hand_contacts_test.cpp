@@ -8,6 +8,7 @@
 #include "devices/open.hpp"
 #include "devices/sim/hand/hand_painter.hpp"
 #include "devices/sim/sim_source.hpp"
+#include "devices/truth.hpp"
 
 namespace armsreach::sim {
 namespace {

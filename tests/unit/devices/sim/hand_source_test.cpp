@@ -14,6 +14,7 @@
 #include "devices/sim/hand/hand_actor.hpp"
 #include "devices/sim/sim_source.hpp"
 #include "devices/sim/worlds.hpp"
+#include "devices/truth.hpp"
 
 namespace armsreach::sim {
 namespace {

