@@ -91,8 +91,8 @@ struct HandSurface::Clothing {
     return std::max(arm, -p.y() - static_cast<float>(options.forearm));
   }
   bool sleeve(const Vector3f& p) const {
-    return options.sleeve && flesh.sample(p).distance > 0.3F * kSleeveGap &&
-           p.y() < -kSleeveHem + 0.002F;
+    // Whatever stands off the flesh is cloth, the hem's rim too, wherever the net has put it.
+    return options.sleeve && flesh.sample(p).distance > 0.3F * kSleeveGap;
   }
 };
 
