@@ -47,8 +47,8 @@ Touches touches_at(double height, double pitch) {
 }
 
 TEST(HandContacts, AreOfTheSkinNotOfTheScript) {
-  EXPECT_TRUE(touches_at(0.004, -0.9).empty()) << "4 mm above";
-  const Touches touches = touches_at(-0.001, -0.9);
+  EXPECT_TRUE(touches_at(0.004, 0.9).empty()) << "4 mm above";
+  const Touches touches = touches_at(-0.001, 0.9);
   EXPECT_EQ(touches, (Touches{{0, HandPart::index}})) << "the pointing finger's tip, and no other";
 }
 

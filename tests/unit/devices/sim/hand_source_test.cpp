@@ -126,7 +126,7 @@ TEST(HandSource, TheTruthKnowsTheHandOfARecording) {
 }
 
 TEST(HandSource, PicturesDifferWhereTheMaskSaysHand) {
-  const std::string spec = "sim:bench,width=160,noise=none,color=clean,speed=10,frames=6";
+  const std::string spec = "sim:bench,width=160,noise=none,color=clean,rate=2,frames=6";
   const auto plain = *open_source(*parse_source_spec(spec), {}, sim_source_kinds());
   const auto handed = *open_source(*parse_source_spec("sim-hand:" + spec), {}, sim_source_kinds());
   int hand_pixels = 0;

@@ -68,7 +68,8 @@ DepthErrors depth_errors(const World& world, const Frame& frame) {
       const TrueThing& thing = frame.truth->things[static_cast<std::size_t>(hit->thing)];
       const int mask = frame.truth->masks.at<std::uint16_t>(y, x);
       const double depth = static_cast<double>(frame.truth->depth.at<float>(y, x));
-      errors.apart = std::max(errors.apart, std::abs(depth - frame.depth.at<float>(y, x)));
+      errors.apart = std::max(errors.apart,
+                              std::abs(depth - static_cast<double>(frame.depth.at<float>(y, x))));
       // The rays know nothing of hands: one that is seen is before what they meet.
       if (mask > static_cast<int>(frame.truth->things.size())) {
         ++errors.hand;
