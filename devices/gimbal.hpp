@@ -2,8 +2,6 @@
 // that it carries, so that a state can be put beside a frame.
 #pragma once
 
-#include <algorithm>
-#include <iterator>
 #include <optional>
 #include <vector>
 
@@ -30,21 +28,5 @@ class Gimbal : public Actuator {
   // What it was told since the last call, for recordings.
   virtual std::vector<GimbalCommand> take_commands() = 0;
 };
-
-// In a list in order of time: the state at `time`, interpolated between its neighbours.
-template <class States>
-std::optional<GimbalState> interpolated_state(const States& states, Timestamp time) {
-  const auto after =
-      std::lower_bound(states.begin(), states.end(), time,
-                       [](const GimbalState& state, Timestamp t) { return state.time < t; });
-  if (after == states.end()) return std::nullopt;
-  if (after->time == time) return *after;
-  if (after == states.begin()) return std::nullopt;
-  const GimbalState& before = *std::prev(after);
-  const double share =
-      static_cast<double>(time - before.time) / static_cast<double>(after->time - before.time);
-  return GimbalState{time, before.angles + share * (after->angles - before.angles),
-                     before.rates + share * (after->rates - before.rates)};
-}
 
 }  // namespace armsreach

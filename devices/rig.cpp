@@ -34,6 +34,12 @@ Result<RigSensor> open_sensor(const RigSensorSpec& sensor, const fs::path& folde
   return RigSensor{std::move(*source), sensor.rig_from_sensor};
 }
 
+Result<std::shared_ptr<Gimbal>> open_gimbal(const RigGimbalSpec& gimbal) {
+  if (const auto* servos = std::get_if<FirmataServos>(&gimbal.driver))
+    return open_firmata_gimbal(*servos, gimbal.carries, gimbal.model);
+  return open_uvc_gimbal(std::get<UvcMotors>(gimbal.driver), gimbal.carries, gimbal.model);
+}
+
 }  // namespace
 
 Result<RigSpec> rig_from_specs(const std::vector<std::string>& sources) {
@@ -134,6 +140,11 @@ Result<std::unique_ptr<Rig>> open_rig(const RigSpec& spec, const std::optional<C
         open_recorded_gimbal(sensor.name, *sensor.gimbal, spec.folder / sensor.gimbal_states);
     if (!gimbal) return std::move(gimbal).error();
     actuators.push_back(std::move(*gimbal));
+  }
+  for (const RigGimbalSpec& gimbal : spec.gimbals) {
+    auto opened = open_gimbal(gimbal);
+    if (!opened) return std::move(opened).error();
+    actuators.push_back(std::move(*opened));
   }
   return std::make_unique<Rig>(std::move(sensors), std::move(actuators));
 }

@@ -5,12 +5,15 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "devices/actuator.hpp"
+#include "devices/firmata_gimbal.hpp"
 #include "devices/gimbal.hpp"
 #include "devices/open.hpp"
 #include "devices/source.hpp"
+#include "devices/uvc_gimbal.hpp"
 #include "vision/core/camera_yaml.hpp"
 #include "vision/core/frame.hpp"
 #include "vision/core/gimbal.hpp"
@@ -29,8 +32,17 @@ struct RigSensorSpec {
   std::string gimbal_states;
 };
 
+// A real gimbal below one of the sensors.
+struct RigGimbalSpec {
+  std::string name;     // in the rig file
+  std::string carries;  // the sensor
+  GimbalModel model;
+  std::variant<FirmataServos, UvcMotors> driver;
+};
+
 struct RigSpec {
   std::vector<RigSensorSpec> sensors;
+  std::vector<RigGimbalSpec> gimbals;
   std::filesystem::path folder;  // relative paths start here; empty: the working directory
 };
 

@@ -10,6 +10,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "devices/gimbal_yaml.hpp"
+#include "devices/rig_actuators_yaml.hpp"
 
 namespace armsreach {
 namespace {
@@ -108,7 +109,8 @@ Result<RigSensorSpec> read_sensor(const YAML::Node& node, const std::string& whe
 }
 
 Result<RigSpec> read_checked(const YAML::Node& root, const std::string& where) {
-  if (auto keys = check_keys(root, where, "the rig", {"sensors"}); !keys) return keys.error();
+  if (auto keys = check_keys(root, where, "the rig", {"sensors", "actuators"}); !keys)
+    return keys.error();
   const YAML::Node list = root["sensors"];
   if (!list || !list.IsSequence() || list.size() == 0) {
     return complaint(list ? list : root, where, "the rig has no list of sensors");
@@ -122,6 +124,8 @@ Result<RigSpec> read_checked(const YAML::Node& root, const std::string& where) {
     if (taken) return complaint(node, where, "two sensors are named '" + sensor->name + "'");
     rig.sensors.push_back(std::move(*sensor));
   }
+  if (!root["actuators"]) return rig;
+  if (auto status = read_actuators(root["actuators"], where, rig); !status) return status.error();
   return rig;
 }
 

@@ -7,6 +7,8 @@
 //       rig_from_sensor: {rotation_vector: [0, 0, 0], translation: [0.1, 0, 0]}  # rad, m
 //       gimbal: {order: [pan, tilt, roll], ...}   # gimbal_yaml.hpp; of a recording,
 //       gimbal_states: gimbal.txt                 # and how it moved then
+//   actuators:                         # rig_actuators_yaml.hpp
+//     gaze: {kind: firmata, port: /dev/ttyACM0, carries: depth}
 #pragma once
 
 #include <filesystem>

@@ -42,6 +42,13 @@ std::string time_text(Timestamp time) {
   return text;
 }
 
+// Padded, so that names sort by time.
+std::string stem_of(Timestamp time) {
+  constexpr std::size_t kLength = 20;  // ten digits of seconds: the clock of 1970 has as many
+  const std::string text = time_text(time);
+  return text.size() < kLength && time >= 0 ? std::string(kLength - text.size(), '0') + text : text;
+}
+
 }  // namespace
 
 Status TumWriter::begin(const SensorInfo& sensor) {
@@ -58,8 +65,9 @@ Status TumWriter::begin(const SensorInfo& sensor) {
 
 Status TumWriter::write(const Frame& frame) {
   const std::string time = time_text(frame.time);
-  const std::string color = "rgb/" + time + ".png";
-  const std::string depth = "depth/" + time + ".png";
+  const std::string stem = stem_of(frame.time);
+  const std::string color = "rgb/" + stem + ".png";
+  const std::string depth = "depth/" + stem + ".png";
   const double units = frame.sensor->camera().depth_units_per_metre;
   if (!frame.color.empty()) {
     if (auto status = write_image(color, frame.color); !status) return status;
@@ -79,7 +87,7 @@ Status TumWriter::write(const Frame& frame) {
     write_tum_pose(pose, {frame.time, *frame.world_from_camera});
     if (auto status = append(poses_, pose.str()); !status) return status;
   }
-  return frame.truth ? write_truth(frame, time, units) : ok();
+  return frame.truth ? write_truth(frame, stem, units) : ok();
 }
 
 Status TumWriter::write_truth(const Frame& frame, const std::string& stem, double units_per_metre) {

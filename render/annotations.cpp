@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "render/hand_annotations.hpp"
+
 namespace armsreach::render {
 namespace {
 
@@ -109,6 +111,7 @@ void draw_annotations(ImDrawList& list, const Fonts& fonts, const Scene& scene, 
                       const ImVec2& origin) {
   list.PushClipRect(origin, {origin.x + static_cast<float>(view.target_width),
                              origin.y + static_cast<float>(view.target_height)});
+  draw_hands(list, fonts, scene, view, origin);
   if (scene.pose_known) draw_labels(list, fonts, scene, view, origin);
   draw_cursors(list, fonts, scene, view, origin);
   list.PopClipRect();

@@ -142,8 +142,9 @@ void draw_wearer_overlay(const Fonts& fonts, const Scene& scene, const Rectangle
   const float margin = 12;
   const theme::Color state = state_color(scene.tracking_state);
   const ImVec2 corner = corner_of(picture);
-  draw_pill(list, *fonts.text, {corner.x + margin, corner.y + margin}, state_or_idle(scene),
-            &state);
+  if (!scene.tracking_state.empty())
+    draw_pill(list, *fonts.text, {corner.x + margin, corner.y + margin}, scene.tracking_state,
+              &state);
   draw_messages(list, fonts, scene, picture);
 }
 

@@ -21,7 +21,8 @@ struct Presses {
   bool wearer_layout = false;
 };
 
-// Wearer: a state pill and the newest messages over the video, nothing else.
+// Wearer: a state pill where the camera is tracked, and the newest messages over the video, nothing
+// else.
 void draw_wearer_overlay(const Fonts& fonts, const Scene& scene, const Rectangle& picture);
 
 // The newest three messages at the lower left of a view, the newest lowest.

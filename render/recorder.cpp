@@ -1,5 +1,6 @@
 #include "render/recorder.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -10,6 +11,8 @@
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
+
+#include "render/film_sound.hpp"
 
 namespace armsreach::render {
 namespace {
@@ -73,7 +76,7 @@ Recorder::~Recorder() {
     const auto unread = close();
 }
 
-Status Recorder::write(const cv::Mat& picture) {
+Status Recorder::write(const cv::Mat& picture, Timestamp time) {
   if (picture.type() != CV_8UC3 || picture.cols != options_.width ||
       picture.rows != options_.height)
     return Error{"a picture of " + std::to_string(picture.cols) + "x" +
@@ -89,6 +92,7 @@ Status Recorder::write(const cv::Mat& picture) {
   changed_.wait(lock, [this] { return waiting_.size() < options_.queue || failure_; });
   if (failure_) return *failure_;
   waiting_.push_back(picture);
+  times_.push_back(time);
   lock.unlock();
   changed_.notify_all();
   return ok();
@@ -123,7 +127,7 @@ void Recorder::fail(Error error) {
   changed_.notify_all();
 }
 
-Result<RecordingSummary> Recorder::close() {
+Result<RecordingSummary> Recorder::close(const SoundTrack& sounds) {
   if (closed_) return *closed_;
   {
     const std::lock_guard lock(mutex_);
@@ -132,12 +136,12 @@ Result<RecordingSummary> Recorder::close() {
   changed_.notify_all();
   thread_.join();
   encoder_->writer.release();
-  closed_ = finish();
+  closed_ = finish(sounds);
   return *closed_;
 }
 
 // The encoder's library does not report failed writes: the file itself has to be asked.
-Result<RecordingSummary> Recorder::finish() {
+Result<RecordingSummary> Recorder::finish(const SoundTrack& sounds) {
   if (failure_) return *failure_;
   std::int64_t frames = 0;
   if (written_ > 0) {
@@ -148,7 +152,28 @@ Result<RecordingSummary> Recorder::finish() {
     return Error{"only " + std::to_string(frames) + " of " + std::to_string(written_) +
                      " frames reached the file",
                  options_.file.string(), "look whether the disk is full", Error::Kind::device};
+  if (frames > 0) {
+    if (const Status sounded = add_sound(options_.file, in_film_time(sounds)); !sounded)
+      return sounded.error();
+  }
   return RecordingSummary{frames, dropped_};
+}
+
+// Live, a film has fewer pictures than the source had frames, and runs faster: a sound starts with
+// the picture nearest in time, or after the sound before it.
+SoundTrack Recorder::in_film_time(const SoundTrack& sounds) const {
+  SoundTrack track;
+  Timestamp free = 0;
+  for (const PlacedSound& placed : sounds) {
+    auto picture = std::lower_bound(times_.begin(), times_.end(), placed.start);
+    if (picture == times_.end() ||
+        (picture != times_.begin() && placed.start - *(picture - 1) < *picture - placed.start))
+      --picture;
+    const double start = static_cast<double>(picture - times_.begin()) / options_.rate;
+    track.push_back({std::max(free, timestamp_from_seconds(start)), placed.sound});
+    free = track.back().start + timestamp_from_seconds(placed.sound->seconds());
+  }
+  return track;
 }
 
 Status write_png(const std::filesystem::path& file, const cv::Mat& picture) {

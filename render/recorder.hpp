@@ -1,4 +1,5 @@
-// Records pictures to an H.264 mp4 on a thread of its own, and single pictures to PNG.
+// Records pictures to an H.264 mp4 on a thread of its own, with what was said meanwhile as its
+// sound track, and single pictures to PNG.
 #pragma once
 
 #include <atomic>
@@ -10,10 +11,12 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <vector>
 
 #include <opencv2/core/mat.hpp>
 
 #include "vision/core/result.hpp"
+#include "vision/core/sound.hpp"
 
 namespace armsreach::render {
 
@@ -43,13 +46,14 @@ class Recorder {
   ~Recorder();  // finishes the file
 
   // CV_8UC3 BGR of the stated size, not written to afterwards. Once recording has failed (the disk
-  // is full), returns why.
-  Status write(const cv::Mat& picture);
+  // is full), returns why. `time` is the picture's source time, for sounds to find it.
+  Status write(const cv::Mat& picture, Timestamp time = 0);
   std::int64_t dropped() const { return dropped_; }
 
-  // Encodes what waits, finishes the file and looks whether it holds every frame. A second call
-  // returns what the first did.
-  Result<RecordingSummary> close();
+  // Encodes what waits, finishes the file and looks whether it holds every frame. The sounds are
+  // heard with the pictures of their source time, wherever in the film those are; without any the
+  // film has no sound track. A second call returns what the first did.
+  Result<RecordingSummary> close(const SoundTrack& sounds = {});
 
  private:
   struct Encoder;
@@ -57,13 +61,15 @@ class Recorder {
   explicit Recorder(const RecordingOptions& options);
   void encode();
   void fail(Error error);
-  Result<RecordingSummary> finish();
+  Result<RecordingSummary> finish(const SoundTrack& sounds);
+  SoundTrack in_film_time(const SoundTrack& sounds) const;
 
   RecordingOptions options_;
   std::unique_ptr<Encoder> encoder_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<cv::Mat> waiting_;
+  std::vector<Timestamp> times_;  // of the pictures taken in
   bool closing_ = false;
   std::optional<Error> failure_;
   std::atomic<std::int64_t> dropped_ = 0;

@@ -33,6 +33,26 @@ struct Cursor {
   std::string caption;
 };
 
+// A hand as it was seen in the image.
+struct Hand {
+  std::vector<Eigen::Vector2f> outline;  // closed; may be empty
+  Eigen::Vector2f center{0, 0};
+  float size = 0;            // px, the root of its area
+  float angle = 0;           // rad, 0 with the fingers up, clockwise
+  std::string gesture;       // empty: none can be told
+  float score = 0;           // how well it matches, up to 1
+  bool grasping = false;     // it points along its angle
+  std::vector<float> rings;  // px, radii that its detector looks at; empty: not shown
+};
+
+// A thing in the image that is known by name.
+struct Mark {
+  std::string text;
+  Eigen::Vector2f corner{0, 0};  // of its box
+  Eigen::Vector2f size{0, 0};
+  bool highlighted = false;  // pointed at
+};
+
 // An inserted thing. Its mesh is one of render::mesh_names(): at scale 1 of the size of things that
 // stand on a table (the teapot is 15 cm high), z up, standing on z = 0.
 struct VirtualObject {
@@ -101,6 +121,8 @@ struct Scene {
   cv::Mat inliers;  // CV_32F 0..1, the tracker's weights; may be empty
 
   std::vector<Feature> features;
+  std::vector<Hand> hands;
+  std::vector<Mark> marks;
   std::vector<Cursor> cursors;
   std::vector<VirtualObject> objects;
   std::vector<Label> labels;
@@ -110,7 +132,7 @@ struct Scene {
   // surface's normals.
   Eigen::Vector3d up_in_world{0, 0, 0};
 
-  std::string tracking_state;  // "tracking", ...
+  std::string tracking_state;  // "tracking", ...; empty where nobody tracks
   double tracking_rms = 0;
   int tracking_inliers = 0;
   double frame_rate = 0;  // Hz

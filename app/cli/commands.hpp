@@ -23,7 +23,15 @@ void add_detect_command(CLI::App& app, Task* task);
 void add_calibrate_command(CLI::App& app, Task* task);
 
 // Nouns of these verbs (verbs.cpp).
+void add_evaluate_gestures(CLI::App& evaluate, Task* task);
 void add_evaluate_trajectory(CLI::App& evaluate, Task* task);
 void add_calibrate_camera(CLI::App& calibrate, Task* task);
+void add_calibrate_target(CLI::App& calibrate, Task* task);
+void add_evaluate_gaze(CLI::App& evaluate, Task* task);
+void add_learn_gesture(CLI::App& learn, Task* task);
+void add_detect_gestures(CLI::App& detect, Task* task);
+void add_calibrate_skin(CLI::App& calibrate, Task* task);
+void add_learn_color(CLI::App& learn, Task* task);
+void add_detect_colors(CLI::App& detect, Task* task);
 
 }  // namespace armsreach::app

@@ -32,6 +32,8 @@ Config tour() {
   config.width = 1280;
   config.height = 720;
   config.layout = "wearer";
+  config.gesture.insert = "cube";
+  config.gesture.reach = 0.55;  // the wooden table comes nearer than an arm
   config.actions = {insert(40, 330, 330, "teapot"), insert(65, 456, 335, "cube"),
                     insert(90, 75, 300, "axes"), show(120, "operator"), show(360, "wearer")};
   return config;
@@ -40,6 +42,7 @@ Config tour() {
 Status demo(const std::string& out) {
   RunOptions options;
   options.sources = {"sim-hand:sim:bench,script=tour"};
+  options.experience = {"workspace", "wearable"};
   if (render::display_exists()) {
     options.display = "window";
     std::printf("The tour runs in a window; close it to end.\n");

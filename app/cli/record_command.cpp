@@ -33,6 +33,7 @@ struct RecordOptions {
 
 // Never into a folder that holds anything: it may be another recording.
 Status check_folder(const fs::path& folder) {
+  if (folder.empty()) return Error{"no folder was given", "--out", "give a new folder"};
   std::error_code failure;
   if (!fs::exists(folder, failure)) return ok();
   if (!fs::is_directory(folder, failure) || !fs::is_empty(folder, failure) || failure) {

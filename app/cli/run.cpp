@@ -7,12 +7,15 @@
 #include <utility>
 #include <vector>
 
+#include "app/cli/hands_setup.hpp"
 #include "app/cli/rig_options.hpp"
 #include "app/cli/run_options.hpp"
+#include "app/pipelines/narrator.hpp"
+#include "app/pipelines/pipeline.hpp"
 #include "app/pipelines/presenter.hpp"
 #include "app/pipelines/vision_stages.hpp"
-#include "app/pipelines/workspace.hpp"
 #include "app/runtime/event_log.hpp"
+#include "devices/speech/spoken_voice.hpp"
 
 namespace armsreach::app {
 namespace {
@@ -55,9 +58,11 @@ Status check_mesh(const std::string& mesh, const std::string& where) {
 }
 
 Status check_meshes(const Config& config, const std::string& where) {
-  for (const Action& action : config.actions) {
-    if (action.insert.empty()) continue;
-    if (auto status = check_mesh(action.insert, where); !status) return status;
+  std::vector<std::string> meshes{config.gesture.insert};
+  for (const Action& action : config.actions) meshes.push_back(action.insert);
+  for (const std::string& mesh : meshes) {
+    if (mesh.empty()) continue;
+    if (auto status = check_mesh(mesh, where); !status) return status;
   }
   return ok();
 }
@@ -82,24 +87,36 @@ Status check_world_can_be_saved(const RunOptions& options) {
 
 // What is done otherwise than asked for, or cannot be done at all with this sensor.
 void tell_fallbacks(const Config& config, const SavedWorld& world, const SensorInfo& sensor,
-                    EventLog& log) {
+                    bool workspace, EventLog& log) {
   if (world.map && world.map->grid().resolution != config.mapping.resolution) {
     char text[80];
     std::snprintf(text, sizeof text, "the map's own resolution of %g m is kept",
                   world.map->grid().resolution);
     log.write({0, FaultEvent{"mapping", text, "make another map for another resolution"}});
   }
-  if (sensor.depth_camera || world.map) return;
+  if (!workspace || sensor.depth_camera || world.map) return;
   log.write({0, FaultEvent{"tracking", "a camera without depth is tracked only in a map",
                            "give --map or --session that a depth camera left, and in the "
                            "configuration tracking: {alpha: 0}"}});
 }
 
-void print_summary(const RunSummary& s) {
-  std::printf(
-      "%lld frames in %.1f s (%.1f Hz), %lld tracked; frame to overlay %.0f ms, p95 %.0f ms\n",
-      static_cast<long long>(s.frames), s.seconds, s.rate, static_cast<long long>(s.tracked_frames),
-      1e3 * s.latency_p50, 1e3 * s.latency_p95);
+bool wants(const RunOptions& options, const char* experience) {
+  return std::count(options.experience.begin(), options.experience.end(), experience) > 0;
+}
+
+Status check_experience(const RunOptions& options, bool workspace) {
+  if (workspace || (options.map.empty() && options.session.empty() && options.trajectory.empty()))
+    return ok();
+  return Error{"--map, --session and --trajectory are for the workspace", "--experience",
+               "add workspace to --experience, or remove them"};
+}
+
+void print_summary(const RunSummary& s, bool tracked) {
+  std::printf("%lld frames in %.1f s (%.1f Hz)", static_cast<long long>(s.frames), s.seconds,
+              s.rate);
+  if (tracked) std::printf(", %lld tracked", static_cast<long long>(s.tracked_frames));
+  std::printf("; frame to overlay %.0f ms, p95 %.0f ms\n", 1e3 * s.latency_p50,
+              1e3 * s.latency_p95);
 }
 
 }  // namespace
@@ -128,26 +145,48 @@ Status run(const RunOptions& options, const Config& config) {
   if (!rig) return rig.error();
   const SensorInfoPtr sensor = (*rig)->sensors()[main_sensor(**rig)].source->sensor();
 
+  const bool workspace =
+      options.experience.empty() ? sensor->depth_camera || world->map : wants(options, "workspace");
+  const bool wearable = options.experience.empty() ? !workspace : wants(options, "wearable");
+  if (auto status = check_experience(options, workspace); !status) return status;
+
+  PipelineOptions pipeline;
+  if (wearable) {
+    auto hands = make_hands_setup(config.gesture, config.show);
+    if (!hands) return hands.error();
+    pipeline.hands = *std::move(hands);
+  }
+
   EventLog log;
   if (auto status = log.open(options.events); !status) return status;
-  auto presenter = Presenter::make(presenter_options(options, config, *sensor));
+  auto narrator = Narrator::make(log, config.speech, !options.record.empty());
+  if (!narrator) return narrator.error();
+  PresenterOptions presenting = presenter_options(options, config, *sensor);
+  presenting.film_sounds = [&narrator] { return (*narrator)->track(); };
+  auto presenter = Presenter::make(presenting);
   if (!presenter) return presenter.error();
+  if (config.speech.voice == "auto" && pace == Pace::live && (*presenter)->interactive()) {
+    (*narrator)->speak_aloud(make_spoken_voice());
+  }
 
-  tell_fallbacks(config, *world, *sensor, log);
+  tell_fallbacks(config, *world, *sensor, workspace, log);
 
-  WorkspaceOptions workspace;
-  workspace.sensor = sensor;
-  workspace.pace = pace;
-  workspace.frames = options.frames;
-  workspace.trajectory = options.trajectory;
-  workspace.stats = options.stats;
-  workspace.map = options.map;
-  workspace.session = options.session;
-  auto summary = run_workspace(**rig, **presenter, log, config, workspace, *std::move(world));
+  pipeline.workspace = workspace;
+  pipeline.sensor = sensor;
+  pipeline.pace = pace;
+  pipeline.frames = options.frames;
+  pipeline.trajectory = options.trajectory;
+  pipeline.stats = options.stats;
+  pipeline.map = options.map;
+  pipeline.session = options.session;
+  pipeline.narrator = narrator->get();
+  auto summary = run_pipeline(**rig, **presenter, log, config, pipeline, *std::move(world));
+  const Status spoken = (*narrator)->close();
   const Status logged = log.close();
   if (!summary) return summary.error();
+  if (!spoken) return spoken;
   if (!logged) return logged;
-  print_summary(*summary);
+  print_summary(*summary, workspace);
   return ok();
 }
 

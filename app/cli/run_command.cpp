@@ -16,10 +16,10 @@ void add_run_command(CLI::App& app, Task* task) {
       "--source", o->sources, "what to look through: SPEC or NAME=SPEC, see `armsreach sources`");
   command->add_option("--rig", o->rig, "YAML file of named sensors")->excludes(source);
   command
-      ->add_option_function<std::vector<std::string>>(
-          "--experience", [](const auto&) {}, "workspace, the only one there is")
+      ->add_option("--experience", o->experience,
+                   "workspace, wearable or both; default: workspace where there is depth or a map")
       ->delimiter(',')
-      ->check(CLI::IsMember({"workspace"}));
+      ->check(CLI::IsMember({"workspace", "wearable"}));
   command->add_option("--camera", o->camera, "camera YAML in place of the source's own");
   command->add_option("--display", o->display, "where to draw")
       ->check(CLI::IsMember({"auto", "window", "egl", "osmesa", "none"}))

@@ -14,6 +14,7 @@ namespace armsreach::app {
 struct RunOptions {
   std::vector<std::string> sources;  // SPEC, or NAME=SPEC
   std::string rig;
+  std::vector<std::string> experience;  // workspace, wearable; empty: what the sensor allows
   std::string camera;
   std::string display = "auto";
   std::string pace = "live";

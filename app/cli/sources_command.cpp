@@ -3,18 +3,20 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/source_kinds.hpp"
+#include "devices/serial_ports.hpp"
 
 namespace armsreach::app {
 namespace {
 
+void print(const Availability& one) {
+  std::printf("%-3s  %-28s  %s\n", one.usable ? "yes" : "no", one.spec.c_str(), one.detail.c_str());
+  if (!one.usable) std::printf("     %-28s  -> %s\n", "", one.remedy.c_str());
+}
+
 Status list_sources() {
-  for (const SourceKind& kind : all_source_kinds()) {
-    for (const Availability& source : kind.probe()) {
-      std::printf("%-3s  %-28s  %s\n", source.usable ? "yes" : "no", source.spec.c_str(),
-                  source.detail.c_str());
-      if (!source.usable) std::printf("     %-28s  -> %s\n", "", source.remedy.c_str());
-    }
-  }
+  for (const SourceKind& kind : all_source_kinds())
+    for (const Availability& source : kind.probe()) print(source);
+  for (const Availability& port : probe_serial_ports()) print(port);
   std::printf("\nHow to write them, for --source:\n");
   for (const SourceKind& kind : all_source_kinds()) std::printf("  %s\n", kind.usage.c_str());
   return ok();

@@ -84,6 +84,10 @@ void Placement::select(const Ray& ray, const WorldView* world) {
   if (nearest) nearest->selected = true;
 }
 
+void Placement::select(std::int64_t id) {
+  for (PlacedObject& object : objects_) object.selected = object.id == id;
+}
+
 Events Placement::remove_selected(const WorldView* world, Timestamp time) {
   Events events;
   std::erase_if(objects_, [&](const PlacedObject& object) {

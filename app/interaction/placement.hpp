@@ -32,6 +32,7 @@ class Placement {
   // `world` may be null while nothing is mapped. `viewer_in_world` is what the object faces.
   Events click(const Click& click, const WorldView* world, const Eigen::Vector3d& viewer_in_world,
                Timestamp time);
+  void select(std::int64_t id);  // this one and no other; 0: none
   Events remove_selected(const WorldView* world, Timestamp time);
 
   const std::vector<PlacedObject>& objects() const { return objects_; }

@@ -21,6 +21,7 @@ CaptureNode::CaptureNode(Rig& rig, const Options& options, EventLog& log)
       log_(log) {}
 
 bool CaptureNode::turn() {
+  if (before_reading_) before_reading_();
   FramePtr frame = next_frame();
   if (!frame) {
     outlet_.close();

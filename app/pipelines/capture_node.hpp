@@ -6,9 +6,11 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "app/runtime/event_log.hpp"
 #include "app/runtime/stage.hpp"
@@ -28,6 +30,8 @@ class CaptureNode final : public Node {
   CaptureNode(Rig& rig, const Options& options, EventLog& log);
 
   Outlet<FramePtr>& outlet() { return outlet_; }
+  // What is to be done once before every frame is read. Set before the run.
+  void before_reading(std::function<void()> action) { before_reading_ = std::move(action); }
   bool turn() override;
   void stop();  // from any thread: the frames already read still go through
 
@@ -43,6 +47,7 @@ class CaptureNode final : public Node {
   Options options_;
   EventLog& log_;
   Outlet<FramePtr> outlet_;
+  std::function<void()> before_reading_;
   std::optional<Error> failure_;
   std::int64_t delivered_ = 0;
   Timestamp last_time_ = 0;

@@ -4,6 +4,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "app/pipelines/background.hpp"
+#include "app/pipelines/hands_scene.hpp"
 #include "vision/core/pyramid.hpp"
 #include "vision/core/registration.hpp"
 
@@ -29,6 +31,8 @@ render::Severity severity_of(const Event& event) {
                                                         : render::Severity::info;
 }
 
+// What is worth a line of text; the rest is shown where it happens, and what is said is about an
+// event that is shown itself.
 struct BodyToText {
   std::string operator()(const TrackingEvent& e) const {
     return std::string(armsreach::name(e.state));
@@ -36,7 +40,16 @@ struct BodyToText {
   std::string operator()(const InsertEvent& e) const { return e.object + " inserted"; }
   std::string operator()(const MoveEvent& e) const { return e.object + " moved"; }
   std::string operator()(const DeleteEvent& e) const { return e.object + " deleted"; }
+  std::string operator()(const GazeEvent& e) const {
+    return std::string("gaze: ").append(armsreach::name(e.mode)).append(" ").append(e.target);
+  }
+  std::string operator()(const AcceptEvent&) const { return "accepted"; }
+  std::string operator()(const RejectEvent&) const { return "rejected"; }
   std::string operator()(const FaultEvent& e) const { return e.message; }
+  template <class Shown>
+  std::string operator()(const Shown&) const {
+    return "";
+  }
 };
 
 }  // namespace
@@ -47,14 +60,17 @@ void UserInput::add(const UserInput& more) {
   delete_selected |= more.delete_selected;
 }
 
-Composer::Composer(const EventLog& log, Placement placement, StageRows stage_rows, Latency latency)
+Composer::Composer(const EventLog& log, Placement placement, HandInteraction hands,
+                   StageRows stage_rows, Latency latency)
     : log_(log),
       stage_rows_(std::move(stage_rows)),
       latency_(std::move(latency)),
-      placement_(std::move(placement)) {}
+      placement_(std::move(placement)),
+      hands_(std::move(hands)) {}
 
 ComposedPtr Composer::process(const ComposeInput& input) {
   for (const UserInput& user : input.user) pending_.add(user);
+  news_.insert(news_.end(), input.news.begin(), input.news.end());
   if (!input.tracked) return nullptr;  // the tracker failed on this frame and has said so
   const TrackedFrame& tracked = *input.tracked;
   const WorldView* world = input.map ? input.map->view.get() : nullptr;
@@ -65,6 +81,7 @@ ComposedPtr Composer::process(const ComposeInput& input) {
     registration_ = input.registration;
     if (registration_->fault) tell({tracked.frame->time, *registration_->fault});
   }
+  for (const HandNews& news : std::exchange(news_, {})) apply(news, world, tracked);
   apply(std::exchange(pending_, {}), world, tracked);
   composed->events = events_;
   composed->events_before = events_told_ - static_cast<std::int64_t>(events_.size());
@@ -74,6 +91,7 @@ ComposedPtr Composer::process(const ComposeInput& input) {
   add_tracking(tracked, scene.get());
   if (input.map) scene->surface = input.map->surface;
   add_objects(world, scene.get());
+  if (input.hands) add_hands(*input.hands, scene.get());
   add_messages(tracked.frame->time, scene.get());
   measure_rate(tracked.frame->arrival);
   scene->frame_rate = frame_rate_;
@@ -86,30 +104,29 @@ ComposedPtr Composer::process(const ComposeInput& input) {
 // The background, its camera and the depth that hides things, all of one instant.
 void Composer::add_video(const TrackedFrame& tracked, render::Scene* scene) {
   const Frame& frame = *tracked.frame;
-  const SensorInfo& sensor = *frame.sensor;
   scene->frame = frame.index;
   scene->time = seconds_from_timestamp(frame.time);
-  const bool color = !frame.color.empty();
-  scene->background = color ? frame.color : picture_of_depth(frame.depth);
-  const bool from_depth = !color || !sensor.color_camera;
-  scene->camera = from_depth ? sensor.camera() : *sensor.color_camera;
-  const Pose background_from_camera =
-      !from_depth && sensor.depth_camera ? sensor.color_from_depth : Pose();
-  scene->world_from_camera = tracked.world_from_camera * background_from_camera.inverse();
+  scene->background = frame.color.empty() ? picture_of_depth(frame.depth) : frame.color;
+  const BackgroundCamera background = background_camera(frame);
+  scene->camera = background.camera;
+  scene->world_from_camera =
+      tracked.world_from_camera * background.background_from_camera.inverse();
   if (frame.depth.empty()) return;
   const cv::Mat depth = reduced_depth(frame.depth, kOcclusionReduction);
-  if (sensor.registered || from_depth) {
+  if (background.sees_depth) {
     scene->depth = depth;
     return;
   }
   const Camera target = resized(scene->camera, scene->camera.width / kOcclusionReduction,
                                 scene->camera.height / kOcclusionReduction);
-  scene->depth = registered_depth(depth, resized(*sensor.depth_camera, depth.cols, depth.rows),
-                                  target, background_from_camera);
+  scene->depth =
+      registered_depth(depth, resized(*frame.sensor->depth_camera, depth.cols, depth.rows), target,
+                       background.background_from_camera);
 }
 
 void Composer::add_tracking(const TrackedFrame& tracked, render::Scene* scene) {
   scene->pose_known = pose_known(tracked);
+  if (tracked.state == TrackingState::untracked) return;
   scene->tracking_state = armsreach::name(tracked.state);
   scene->tracking_rms = tracked.rms;
   scene->tracking_inliers = tracked.inliers;
@@ -136,7 +153,17 @@ void Composer::add_objects(const WorldView* world, render::Scene* scene) {
 void Composer::add_messages(Timestamp now, render::Scene* scene) {
   for (const Event& event : log_.recent()) {
     if (now - event.time > kMessageTime) continue;
-    scene->messages.push_back({severity_of(event), std::visit(BodyToText{}, event.body)});
+    const std::string text = std::visit(BodyToText{}, event.body);
+    if (!text.empty()) scene->messages.push_back({severity_of(event), text});
+  }
+}
+
+void Composer::apply(const HandNews& news, const WorldView* world, const TrackedFrame& tracked) {
+  for (const Event& event : news.events) tell(event);
+  const Eigen::Vector3d& viewer = tracked.world_from_camera.translation();
+  for (const HandCommand& command : news.commands) {
+    for (Event& event : hands_.act(command, &placement_, world, viewer, tracked.frame->time))
+      tell(std::move(event));
   }
 }
 

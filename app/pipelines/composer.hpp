@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "app/interaction/hand_interaction.hpp"
 #include "app/interaction/placement.hpp"
+#include "app/pipelines/hands_stage.hpp"
 #include "app/pipelines/map_state.hpp"
 #include "app/pipelines/registration_stage.hpp"
 #include "app/runtime/event_log.hpp"
@@ -32,6 +34,8 @@ struct ComposeInput {
   MapStatePtr map;  // null until something is mapped
   std::vector<UserInput> user;
   RegistrationStatePtr registration = nullptr;  // null until something is known of it
+  HandsStatePtr hands = nullptr;                // of this frame; null where nobody looks for hands
+  std::vector<HandNews> news = {};              // since the last frame
 };
 
 struct Composed {
@@ -48,7 +52,8 @@ class Composer final : public Stage<ComposeInput, ComposedPtr> {
  public:
   using StageRows = std::function<std::vector<render::StageRow>()>;
   using Latency = std::function<double()>;  // s, of the overlay that was drawn last
-  Composer(const EventLog& log, Placement placement, StageRows stage_rows, Latency latency);
+  Composer(const EventLog& log, Placement placement, HandInteraction hands, StageRows stage_rows,
+           Latency latency);
 
   std::string name() const override { return "composing"; }
   ComposedPtr process(const ComposeInput& input) override;
@@ -60,6 +65,7 @@ class Composer final : public Stage<ComposeInput, ComposedPtr> {
   void add_tracking(const TrackedFrame& tracked, render::Scene* scene);
   void add_objects(const WorldView* world, render::Scene* scene);
   void add_messages(Timestamp now, render::Scene* scene);
+  void apply(const HandNews& news, const WorldView* world, const TrackedFrame& tracked);
   void apply(const UserInput& user, const WorldView* world, const TrackedFrame& tracked);
   void tell(Event event);
   void measure_rate(std::int64_t arrival);
@@ -69,8 +75,10 @@ class Composer final : public Stage<ComposeInput, ComposedPtr> {
   Latency latency_;
   RegistrationStatePtr registration_;  // the last one told
   Placement placement_;
-  UserInput pending_;  // done on frames whose tracking failed
-  Events events_;      // the newest
+  HandInteraction hands_;
+  UserInput pending_;           // done on frames whose tracking failed
+  std::vector<HandNews> news_;  // the same
+  Events events_;               // the newest
   std::int64_t events_told_ = 0;
   std::vector<Eigen::Vector3f> camera_trail_;
   std::int64_t last_arrival_ = 0;

@@ -6,7 +6,7 @@
 namespace armsreach::app {
 
 DrawNode::DrawNode(Presenter& presenter, Journal& journal, EventLog& log, Pace pace,
-                   Connections connections, std::function<void()> stop_sources)
+                   Connections connections, std::function<void()> stop_sources, Narrator* narrator)
     : Node("drawing",
            [&log](const std::string& stage, const std::string& what) {
              log.write({log.now(), FaultEvent{stage, what, "see 'Displays' in the README"}});
@@ -16,7 +16,8 @@ DrawNode::DrawNode(Presenter& presenter, Journal& journal, EventLog& log, Pace p
       log_(log),
       pace_(pace),
       connections_(std::move(connections)),
-      stop_sources_(std::move(stop_sources)) {
+      stop_sources_(std::move(stop_sources)),
+      narrator_(narrator) {
   if (presenter_.interactive()) {
     connections_.scenes->set_listener([this] { presenter_.wake(); });
   }
@@ -78,6 +79,7 @@ void DrawNode::write_events(const Composed& composed) {
     log_.write(event);
     events_written_ = number;
   }
+  if (narrator_) narrator_->turn(timestamp_from_seconds(composed.scene->time));
 }
 
 void DrawNode::draw(const Composed& composed, bool fresh) {

@@ -1,5 +1,5 @@
 // The end of the line, on the main thread: draws what was composed, writes the journal and the
-// events, and sends what the person did back to the composer.
+// events, has them told, and sends what the person did back to the composer.
 #pragma once
 
 #include <functional>
@@ -8,6 +8,7 @@
 
 #include "app/pipelines/composer.hpp"
 #include "app/pipelines/journal.hpp"
+#include "app/pipelines/narrator.hpp"
 #include "app/pipelines/presenter.hpp"
 #include "app/runtime/event_log.hpp"
 #include "app/runtime/progress.hpp"
@@ -25,7 +26,8 @@ class DrawNode final : public Node {
   };
 
   DrawNode(Presenter& presenter, Journal& journal, EventLog& log, Pace pace,
-           Connections connections, std::function<void()> stop_sources);
+           Connections connections, std::function<void()> stop_sources,
+           Narrator* narrator = nullptr);  // who says what happens, or nobody
 
   bool turn() override;
 
@@ -53,6 +55,7 @@ class DrawNode final : public Node {
   Pace pace_;
   Connections connections_;
   std::function<void()> stop_sources_;
+  Narrator* narrator_;
   ComposedPtr shown_;
   UserInput user_;  // what was done since the last answer to the composer
   std::int64_t events_written_ = 0;

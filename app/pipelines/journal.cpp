@@ -26,6 +26,11 @@ double Journal::rate() const {
 
 std::string Journal::progress() const {
   char line[96];
+  if (state_ == TrackingState::untracked) {
+    std::snprintf(line, sizeof line, "%lld frames, %.1f Hz", static_cast<long long>(frames_),
+                  rate());
+    return line;
+  }
   std::snprintf(line, sizeof line, "%lld frames, %lld tracked, %.1f Hz: %s",
                 static_cast<long long>(frames_), static_cast<long long>(tracked_frames_), rate(),
                 state_ ? std::string(name(*state_)).c_str() : "waiting");
@@ -41,6 +46,7 @@ void Journal::record(const JournalEntry& entry) {
   }
   if (state_ == entry.state) return;
   state_ = entry.state;
+  if (entry.state == TrackingState::untracked) return;
   log_.write({entry.time, TrackingEvent{entry.state, entry.rms, entry.inliers}});
 }
 

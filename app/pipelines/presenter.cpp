@@ -148,7 +148,10 @@ void Presenter::add_actions(const render::Scene& scene, UserInput* user) {
 Status Presenter::keep_picture(const render::Scene& scene) {
   const bool due = !options_.screenshots.empty() && scene.frame % options_.screenshot_every == 0;
   if (recorder_) {
-    if (auto status = recorder_->write(renderer_->read_picture()); !status) return status;
+    if (auto status =
+            recorder_->write(renderer_->read_picture(), timestamp_from_seconds(scene.time));
+        !status)
+      return status;
   }
   return due ? save_screenshot(scene.frame) : ok();
 }
@@ -167,7 +170,8 @@ Status Presenter::close() {
     screenshot = save_screenshot(last_drawn_);
   }
   if (recorder_) {
-    if (auto film = recorder_->close(); !film) return film.error();
+    const SoundTrack sounds = options_.film_sounds ? options_.film_sounds() : SoundTrack{};
+    if (auto film = recorder_->close(sounds); !film) return film.error();
   }
   return screenshot;
 }

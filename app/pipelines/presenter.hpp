@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "render/context.hpp"
 #include "render/recorder.hpp"
 #include "render/renderer.hpp"
+#include "vision/core/sound.hpp"
 
 namespace armsreach::app {
 
@@ -27,6 +29,7 @@ struct PresenterOptions {
   int screenshot_every = 30;  // frames; the last one is always kept
   double rate = 30;           // Hz of the film
   bool may_drop = false;      // live: rather lose a frame of the film than wait for the encoder
+  std::function<SoundTrack()> film_sounds;  // asked at the end for the film's sound track
   std::vector<Action> actions;
 };
 

@@ -6,70 +6,12 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include "app/session/yaml_section.hpp"
+
 namespace armsreach::app {
 namespace {
 
-// A map of the file that knows which of its keys were asked for. The first complaint is kept.
-class Section {
- public:
-  Section(YAML::Node node, std::string path, std::optional<Error>* error, const std::string& where)
-      : node_(std::move(node)), path_(std::move(path)), error_(error), where_(where) {
-    if (node_ && !node_.IsNull() && !node_.IsMap()) complain("is not a map of keys and values");
-  }
-
-  template <class T>
-  void read(const std::string& key, T* value, const std::string& meaning,
-            bool (*valid)(const T&) = nullptr) {
-    const YAML::Node node = child(key);
-    if (!node) return;
-    T read{};
-    if (!YAML::convert<T>::decode(node, read) || (valid && !valid(read))) {
-      complain("'" + path_ + key + "' must be " + meaning);
-      return;
-    }
-    *value = read;
-  }
-
-  YAML::Node child(const std::string& key) {
-    known_.insert(key);
-    return node_.IsMap() ? node_[key] : YAML::Node(YAML::NodeType::Undefined);
-  }
-
-  Section section(const std::string& key) {
-    return {child(key), path_ + key + ".", error_, where_};
-  }
-
-  Section item(const YAML::Node& node, const std::string& list, size_t index) const {
-    return {node, path_ + list + "[" + std::to_string(index) + "].", error_, where_};
-  }
-
-  const std::string& path() const { return path_; }
-
-  // To be called after the last read.
-  void refuse_unknown() {
-    if (!node_.IsMap()) return;
-    for (const auto& entry : node_) {
-      const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "?";
-      if (known_.count(key)) continue;
-      std::string list;
-      for (const std::string& name : known_) list += (list.empty() ? "" : ", ") + name;
-      complain("unknown key '" + path_ + key + "'; known here: " + list);
-    }
-  }
-
-  void complain(const std::string& what) {
-    if (!*error_) *error_ = Error{what, where_, "see 'Configuration' in the README"};
-  }
-
- private:
-  YAML::Node node_;
-  std::string path_;
-  std::optional<Error>* error_;
-  const std::string& where_;
-  std::set<std::string> known_;
-};
-
-void read_pair(Section& section, const std::string& key, double* first, double* second) {
+void read_pair(YamlSection& section, const std::string& key, double* first, double* second) {
   const YAML::Node node = section.child(key);
   if (!node) return;
   if (!node.IsSequence() || node.size() != 2 || !YAML::convert<double>::decode(node[0], *first) ||
@@ -81,7 +23,7 @@ void read_pair(Section& section, const std::string& key, double* first, double* 
 
 bool is_layout(const std::string& name) { return name == "wearer" || name == "operator"; }
 
-Action read_action(Section section) {
+Action read_action(YamlSection section) {
   Action action;
   section.read<std::int64_t>("frame", &action.frame, "a frame number, 0 or more",
                              [](const std::int64_t& n) { return n >= 0; });
@@ -99,7 +41,7 @@ Action read_action(Section section) {
   return action;
 }
 
-void read_tracking(Section section, TrackingConfig* tracking) {
+void read_tracking(YamlSection section, TrackingConfig* tracking) {
   section.read<double>("alpha", &tracking->alpha, "between 0 (intensity) and 1 (depth)",
                        [](const double& a) { return a >= 0 && a <= 1; });
   section.read<int>("iterations", &tracking->iterations, "between 1 and 100",
@@ -109,14 +51,68 @@ void read_tracking(Section section, TrackingConfig* tracking) {
   section.refuse_unknown();
 }
 
-void read_mapping(Section section, MappingConfig* mapping) {
+void read_mapping(YamlSection section, MappingConfig* mapping) {
   section.read<bool>("enabled", &mapping->enabled, "true or false");
   section.read<double>("resolution", &mapping->resolution, "between 0.002 and 0.2 metres",
                        [](const double& r) { return r >= 0.002 && r <= 0.2; });
   section.refuse_unknown();
 }
 
-void read_size(Section& root, Config* config) {
+bool is_filled(const std::string& text) { return !text.empty(); }
+
+void read_cursor_filter(YamlSection section, CursorFilterConfig* filter) {
+  section.read<bool>("enabled", &filter->enabled, "true or false");
+  section.read<double>("min_cutoff", &filter->min_cutoff, "between 0.01 and 100 Hz",
+                       [](const double& f) { return f >= 0.01 && f <= 100; });
+  section.read<double>("beta", &filter->beta, "between 0 and 100",
+                       [](const double& b) { return b >= 0 && b <= 100; });
+  section.refuse_unknown();
+}
+
+void read_gesture(YamlSection section, GestureConfig* gesture) {
+  section.read<std::string>("vocabulary", &gesture->vocabulary, "the name of a vocabulary",
+                            is_filled);
+  section.read<std::string>("templates", &gesture->templates, "a folder of templates", is_filled);
+  section.read<std::string>("skin", &gesture->skin, "a file of a skin model", is_filled);
+  section.read<std::string>("colours", &gesture->colours, "a file of colour classes", is_filled);
+  section.read<std::string>("table", &gesture->table, "a file of transitions", is_filled);
+  section.read<double>("window", &gesture->window, "between 0 and 2 seconds",
+                       [](const double& w) { return w >= 0 && w <= 2; });
+  section.read<double>("reach", &gesture->reach, "between 0.1 and 10 metres",
+                       [](const double& r) { return r >= 0.1 && r <= 10; });
+  section.read<std::string>("insert", &gesture->insert, "the name of a mesh, or ''");
+  read_cursor_filter(section.section("cursor_filter"), &gesture->cursor_filter);
+  section.refuse_unknown();
+}
+
+bool is_gaze_target(const std::string& target) {
+  return target == "hand" || target == "hands" || target == "grasp" ||
+         (target.rfind("colour:", 0) == 0 && target.size() > 7);
+}
+
+void read_gaze(YamlSection section, GazeConfig* gaze) {
+  section.read<std::string>("mode", &gaze->mode, "follow or rest",
+                            [](const std::string& m) { return m == "follow" || m == "rest"; });
+  section.read<std::string>("target", &gaze->target, "hand, hands, grasp or colour:NAME",
+                            is_gaze_target);
+  section.refuse_unknown();
+}
+
+void read_show(YamlSection section, ShowConfig* show) {
+  section.read<bool>("rings", &show->rings, "true or false");
+  section.refuse_unknown();
+}
+
+void read_speech(YamlSection section, SpeechConfig* speech) {
+  section.read<std::string>("voice", &speech->voice, "auto, off or the name of a .wav file",
+                            [](const std::string& voice) {
+                              return voice == "auto" || voice == "off" ||
+                                     (voice.size() > 4 && voice.ends_with(".wav"));
+                            });
+  section.refuse_unknown();
+}
+
+void read_size(YamlSection& root, Config* config) {
   if (!root.child("size")) return;
   double width = 0;
   double height = 0;
@@ -132,7 +128,7 @@ void read_size(Section& root, Config* config) {
   config->height = static_cast<int>(height);
 }
 
-void read_root(Section root, Config* config) {
+void read_root(YamlSection root, Config* config) {
   root.read<std::string>("layout", &config->layout, "wearer or operator", is_layout);
   read_size(root, config);
   root.read<bool>("threads", &config->threads, "true or false");
@@ -140,6 +136,10 @@ void read_root(Section root, Config* config) {
                  [](const int& n) { return n >= 1 && n <= 30; });
   read_tracking(root.section("tracking"), &config->tracking);
   read_mapping(root.section("mapping"), &config->mapping);
+  read_gesture(root.section("gesture"), &config->gesture);
+  read_gaze(root.section("gaze"), &config->gaze);
+  read_show(root.section("show"), &config->show);
+  read_speech(root.section("speech"), &config->speech);
   const YAML::Node actions = root.child("actions");
   if (actions && !actions.IsSequence()) root.complain("'actions' must be a list");
   if (actions && actions.IsSequence()) {
@@ -156,7 +156,7 @@ Result<Config> read_config(std::istream& in, const std::string& where) {
   Config config;
   std::optional<Error> error;
   try {
-    read_root(Section(YAML::Load(in), "", &error, where), &config);
+    read_root(YamlSection(YAML::Load(in), "", &error, where), &config);
   } catch (const YAML::Exception& e) {
     return Error{"not readable as YAML: " + std::string(e.what()), where,
                  "see 'Configuration' in the README"};

@@ -33,6 +33,40 @@ struct MappingConfig {
   double resolution = 0.01;  // m
 };
 
+// Of the One Euro filter; speeds are in sizes of the hand.
+struct CursorFilterConfig {
+  bool enabled = true;
+  double min_cutoff = 1.2;  // Hz at rest
+  double beta = 1.5;        // Hz for each size of the hand a second
+};
+
+// Files and folders are empty for those that the program brings along.
+struct GestureConfig {
+  std::string vocabulary = "wearable";
+  std::string templates;          // folder
+  std::string skin;               // skin model
+  std::string colours;            // classes of coloured things
+  std::string table;              // transitions
+  double window = 0.25;           // s of the modal filter
+  double reach = 0.7;             // m: skin beyond is no hand, where there is depth
+  std::string insert = "teapot";  // mesh that a selecting hand inserts in a map; empty: none
+  CursorFilterConfig cursor_filter;
+};
+
+struct GazeConfig {
+  std::string mode = "follow";  // or "rest"
+  std::string target = "hand";  // or hands (their midpoint), grasp (what it points at), colour:NAME
+};
+
+struct ShowConfig {
+  bool rings = false;  // that the hand detector looks at
+};
+
+struct SpeechConfig {
+  // auto: aloud when live in a window, and on films; off; or the name of a WAV file to speak into.
+  std::string voice = "auto";
+};
+
 struct Config {
   std::string layout = "wearer";  // or "operator"
   int width = 0;                  // px of the picture; 0: the video's, or 1280x720 for an operator
@@ -41,6 +75,10 @@ struct Config {
   int lag = 3;          // frames between a frame and the map it is tracked against, every-frame
   TrackingConfig tracking;
   MappingConfig mapping;
+  GestureConfig gesture;
+  GazeConfig gaze;
+  ShowConfig show;
+  SpeechConfig speech;
   std::vector<Action> actions;
 };
 

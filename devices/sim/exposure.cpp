@@ -28,8 +28,9 @@ double picture_motion(const Camera& camera, const Eigen::Vector3d& first,
 }
 
 std::vector<double> exposure_moments(double duration, double motion) {
+  constexpr double kStep = 1.5;  // px from one moment to the next: the lens smooths as much
   constexpr double kMost = 16;
-  const double pairs = std::ceil((std::clamp(motion, 1.0, kMost) - 1) / 2);
+  const double pairs = std::ceil((std::clamp(motion, kStep, kMost) / kStep - 1) / 2);
   const int count = 1 + 2 * static_cast<int>(pairs);
   std::vector<double> moments;
   for (int i = 0; i < count; ++i) moments.push_back(duration * ((i + 0.5) / count - 0.5));

@@ -23,7 +23,7 @@ double picture_motion(const Camera& camera, const Eigen::Vector3d& first,
                       const Eigen::Vector3d& second);
 
 // Moments of an exposure of `duration` s around 0 at which to draw, so that the picture moves by
-// no more than about a pixel from one to the next: evenly spread, in pairs around 0 and 0 itself.
+// no more than about 1.5 px from one to the next: evenly spread, in pairs around 0 and 0 itself.
 std::vector<double> exposure_moments(double duration, double motion);
 
 // The mean light of pictures whose values are square roots of light (CV_8UC3).

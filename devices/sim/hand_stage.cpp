@@ -26,11 +26,11 @@ std::vector<HandTruth> HandStage::truth(double time) const {
 }
 
 std::vector<std::vector<std::pair<int, HandPart>>> HandStage::touched(
-    const std::vector<Pose>& world_from_thing) const {
+    const std::vector<Pose>& world_from_thing) {
   std::vector<std::vector<std::pair<int, HandPart>>> touched;
   for (std::size_t i = 0; i < painter_.actors().size(); ++i) {
-    touched.push_back(
-        contacts_.at(painter_.surface(i), painter_.skin(i).positions, world_from_thing));
+    const FeltSkin skin = painter_.skin(i);
+    touched.push_back(contacts_.at(skin.surface, skin.points, world_from_thing));
   }
   return touched;
 }

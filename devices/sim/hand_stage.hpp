@@ -29,7 +29,7 @@ class HandStage {
   std::vector<HandTruth> truth(double time) const;
   // What each hand touches as it was last drawn.
   std::vector<std::vector<std::pair<int, HandPart>>> touched(
-      const std::vector<Pose>& world_from_thing) const;
+      const std::vector<Pose>& world_from_thing);
   // What the first hand wears for an infra-red camera; visible: whether this depth, which it was
   // drawn into, has the middle of it.
   std::vector<TrueMarker> markers(double time, const Pose& world_from_camera,

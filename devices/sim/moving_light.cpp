@@ -8,6 +8,8 @@
 #include <Eigen/Geometry>
 #include <opencv2/imgproc.hpp>
 
+#include "devices/sim/shaded_region.hpp"
+
 namespace armsreach::sim {
 namespace {
 
@@ -28,13 +30,6 @@ constexpr int kStillUnit = 4;
 
 bool same(const Pose& a, const Pose& b) {
   return a.translation() == b.translation() && a.rotation().coeffs() == b.rotation().coeffs();
-}
-
-std::vector<Eigen::Vector3d> corners_of(const Eigen::AlignedBox3d& box) {
-  std::vector<Eigen::Vector3d> corners;
-  for (int i = 0; i < 8; ++i)
-    corners.emplace_back(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
-  return corners;
 }
 
 // From a box along the light's way down to the floor, and as far aside as penumbra and dimness
@@ -150,6 +145,23 @@ void MovingLight::mark(Map& map, double margin) const {
 bool MovingLight::reaches(const Eigen::AlignedBox3d& box) const {
   return std::any_of(shaded_.begin(), shaded_.end(),
                      [&](const Eigen::AlignedBox3d& shaded) { return shaded.intersects(box); });
+}
+
+std::vector<cv::Rect> MovingLight::seen_in(const Camera& camera, const Pose& world_from_camera,
+                                           const std::vector<Eigen::AlignedBox3d>& beside,
+                                           const Light& light) const {
+  const double margin = std::max(
+      kCovers, kSearched * std::tan(light.spread) + 4 * static_cast<double>(movers_.texel));
+  std::vector<Corners> shading;
+  for (std::size_t i = 0; i < poses_.size(); ++i) {
+    if (boxes_[i].isEmpty()) continue;
+    Eigen::AlignedBox3d grown = boxes_[i];
+    grown.min().array() -= margin;
+    grown.max().array() += margin;
+    Corners& corners = shading.emplace_back(corners_of(grown));
+    for (Eigen::Vector3d& corner : corners) corner = poses_[i] * corner;
+  }
+  return shaded_rectangles(camera, world_from_camera, shading, beside, light.towards);
 }
 
 void MovingLight::bind() const {

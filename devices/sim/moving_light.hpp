@@ -5,12 +5,15 @@
 #include <vector>
 
 #include <Eigen/Geometry>
+#include <opencv2/core/types.hpp>
 
 #include "devices/sim/gpu_world.hpp"
 #include "devices/sim/shadow_camera.hpp"
 #include "devices/sim/world.hpp"
 #include "devices/sim/world_mesh.hpp"
 #include "render/gl_objects.hpp"
+#include "vision/core/camera.hpp"
+#include "vision/core/pose.hpp"
 #include "vision/core/result.hpp"
 
 namespace armsreach::sim {
@@ -27,6 +30,11 @@ class MovingLight {
 
   // Whether anything in this box can be other than it was gathered.
   bool reaches(const Eigen::AlignedBox3d& box) const;
+
+  // The places in a picture where that may be seen on still parts in these boxes; they may overlap.
+  std::vector<cv::Rect> seen_in(const Camera& camera, const Pose& world_from_camera,
+                                const std::vector<Eigen::AlignedBox3d>& beside,
+                                const Light& light) const;
 
   // The maps and masks, to units 2 to 6; then, for each program in use, the uniforms of
   // sim_shadow.glsl, sim_light_beside.glsl and sim_light_moving.glsl.

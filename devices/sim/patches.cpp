@@ -15,11 +15,11 @@ using Eigen::Vector3d;
 
 constexpr double kTurn = 2 * std::numbers::pi;
 // A circle of radius r is drawn as a polygon that lies up to r (1 - cos(pi / n)) inside it.
-constexpr double kRoundness = 30e-6;  // m
+constexpr double kRoundness = 100e-6;  // m, a twentieth of what a pixel of 320 sees at 0.5 m
 
 int segments_of(double radius) {
   const double half_corner = std::acos(1 - std::min(kRoundness / radius, 0.5));
-  return std::clamp(static_cast<int>(std::ceil(std::numbers::pi / half_corner)), 16, 128);
+  return std::clamp(static_cast<int>(std::ceil(std::numbers::pi / half_corner)), 12, 128);
 }
 
 constexpr double kSmoothCosine = 0.766;  // profile corners under 40 degrees are rounded
@@ -110,14 +110,14 @@ std::vector<Patch> patches(const Cylinder& cylinder) {
 }
 
 std::vector<Patch> patches(const Capsule& capsule) {
-  constexpr int kSteps = 8;  // of a quarter turn: corners of 11 degrees, which are rounded
   const double r = capsule.radius;
+  const int steps = segments_of(r) / 4;  // of a quarter turn: corners of 30 degrees are rounded
   Lathe lathe{{{0, 0}}};
-  for (int i = 1; i <= kSteps; ++i) {
-    const double angle = kTurn / 4 * i / kSteps;
+  for (int i = 1; i <= steps; ++i) {
+    const double angle = kTurn / 4 * i / steps;
     lathe.profile.emplace_back(r * std::sin(angle), r - r * std::cos(angle));
   }
-  for (int i = kSteps; i >= 0; --i) {  // the same from the other end
+  for (int i = steps; i >= 0; --i) {  // the same from the other end
     const Vector2d lower = lathe.profile[static_cast<std::size_t>(i)];
     lathe.profile.emplace_back(lower.x(), capsule.height - lower.y());
   }
@@ -229,8 +229,8 @@ Patch handle(const Mug& mug) {
     const Vector3d normal(c * outwards.x(), s, c * outwards.y());
     return SurfacePoint{Vector3d(middle.x(), 0, middle.y()) + handle.bar * normal, normal};
   };
-  patch.columns = 16;
-  patch.rows = 24;
+  patch.columns = segments_of(handle.bar);
+  patch.rows = segments_of(handle.reach) / 2;
   patch.width = kTurn * handle.bar;
   patch.height = std::numbers::pi * handle.reach;
   patch.fit_height = mug.height;

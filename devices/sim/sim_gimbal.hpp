@@ -1,5 +1,5 @@
-// A simulated gimbal: three servos, each accelerating towards its angle as hard as it may and
-// braking in time. It runs on the clock of its sensor and is the same for the same commands.
+// A simulated gimbal: moves as its model says (vision/core/gimbal_motion.hpp), on the clock of its
+// sensor, and is the same for the same commands.
 #pragma once
 
 #include <deque>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "devices/gimbal.hpp"
-#include "devices/sim/world.hpp"
+#include "vision/core/gimbal_motion.hpp"
 
 namespace armsreach::sim {
 
@@ -19,7 +19,7 @@ class SimGimbal final : public Gimbal {
 
   const std::string& name() const override { return name_; }
   Status rest() override;
-  const GimbalModel& model() const override { return model_; }
+  const GimbalModel& model() const override { return motion_.model(); }
   Status command(const GimbalCommand& command) override;
   std::optional<GimbalState> state_at(Timestamp time) const override;
   std::vector<GimbalCommand> take_commands() override;
@@ -28,17 +28,13 @@ class SimGimbal final : public Gimbal {
   GimbalState advance(Timestamp time);
 
  private:
-  void step();
-  void take_due();
+  void obey(const GimbalCommand& command);
 
   std::string name_;
-  GimbalModel model_;
   mutable std::mutex mutex_;
-  std::deque<GimbalCommand> script_;   // not yet given
-  std::deque<GimbalCommand> pending_;  // given; `time` is when the axes begin to obey
+  GimbalMotion motion_;
+  std::deque<GimbalCommand> script_;  // not yet given
   std::vector<GimbalCommand> log_;
-  GimbalState now_;  // at the last whole step
-  Eigen::Vector3d goal_ = Eigen::Vector3d::Zero();
   std::deque<GimbalState> measured_;
 };
 

@@ -160,7 +160,7 @@ class SimSource final : public Source {
     return truth;
   }
 
-  void add_touches(const std::vector<Pose>& things, Truth& truth) const {
+  void add_touches(const std::vector<Pose>& things, Truth& truth) {
     const auto touched = hands_->touched(things);
     for (std::size_t hand = 0; hand < touched.size(); ++hand) {
       for (const auto& [thing, part] : touched[hand]) {

@@ -141,9 +141,11 @@ ExactImages WorldRenderer::draw(const Pose& world_from_camera,
   for (const bool panel : {false, true}) {
     for (const LightKind light : {kMoving, kBeside, kStill}) {
       for (const bool shiny : {true, false})
-        draw_parts({light, shiny, panel}, world_from_camera, world_from_thing);
+        draw_parts({light, shiny, panel}, light == kMoving ? kMoving : kStill, world_from_camera,
+                   world_from_thing);
     }
   }
+  if (anything_moves_) draw_shadows(world_from_camera, world_from_thing);
   return read();
 }
 
@@ -181,9 +183,35 @@ WorldRenderer::Kind WorldRenderer::kind_of(std::size_t index) const {
   return kind;
 }
 
-void WorldRenderer::draw_parts(const Kind& kind, const Pose& world_from_camera,
+std::vector<Eigen::AlignedBox3d> WorldRenderer::boxes_beside() const {
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (std::size_t i = 0; i < world_.parts.size(); ++i) {
+    if (kind_of(i).light == kBeside) boxes.push_back(boxes_[i]);
+  }
+  return boxes;
+}
+
+// Once more what moving things may shade, where it is seen. With their shadows it costs four times
+// as much as without.
+void WorldRenderer::draw_shadows(const Pose& world_from_camera,
+                                 const std::vector<Pose>& world_from_thing) const {
+  gl_.DepthFunc(GL_LEQUAL);
+  gl_.Enable(GL_SCISSOR_TEST);
+  for (const cv::Rect& place :
+       moving_light_.seen_in(camera_, world_from_camera, boxes_beside(), world_.light)) {
+    gl_.Scissor(place.x, place.y, place.width, place.height);
+    for (const bool panel : {false, true}) {
+      for (const bool shiny : {true, false})
+        draw_parts({kBeside, shiny, panel}, kBeside, world_from_camera, world_from_thing);
+    }
+  }
+  gl_.Disable(GL_SCISSOR_TEST);
+  gl_.DepthFunc(GL_LESS);
+}
+
+void WorldRenderer::draw_parts(const Kind& kind, LightKind light, const Pose& world_from_camera,
                                const std::vector<Pose>& world_from_thing) const {
-  const render::Program& program = programs_[kind.light][kind.shiny];
+  const render::Program& program = programs_[light][kind.shiny];
   bool ready = false;
   for (std::size_t i = 0; i < world_.parts.size(); ++i) {
     const Part& part = world_.parts[i];

@@ -50,7 +50,10 @@ class WorldRenderer {
     bool operator==(const Kind&) const = default;
   };
   Kind kind_of(std::size_t part) const;
-  void draw_parts(const Kind& kind, const Pose& world_from_camera,
+  std::vector<Eigen::AlignedBox3d> boxes_beside() const;  // of what moving things may shade
+  // `light`: how they are lit, which for kBeside may be as if nothing moved.
+  void draw_shadows(const Pose& world_from_camera, const std::vector<Pose>& world_from_thing) const;
+  void draw_parts(const Kind& kind, LightKind light, const Pose& world_from_camera,
                   const std::vector<Pose>& world_from_thing) const;
   void use(const render::Program& program, const Pose& world_from_camera) const;
   ExactImages read() const;

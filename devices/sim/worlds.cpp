@@ -10,9 +10,9 @@
 namespace armsreach::sim {
 
 const std::vector<std::string>& world_names() {
-  static const std::vector<std::string> names{"bench",    "near",        "kitchen-table",
-                                              "assembly", "packaging",   "haptic-table",
-                                              "ir-glove", "ir-bracelet", "ir-bracelet-far"};
+  static const std::vector<std::string> names{
+      "bench",    "near",        "kitchen-table",   "assembly", "packaging", "haptic-table",
+      "ir-glove", "ir-bracelet", "ir-bracelet-far", "gaze",     "gaze-sway"};
   return names;
 }
 

@@ -18,6 +18,7 @@ TEST(EndToEndCommandLine, HelpEverywhere) {
                                              {"sources"},
                                              {"evaluate"},
                                              {"evaluate", "trajectory"},
+                                             {"evaluate", "gaze"},
                                              {"export"}}) {
     std::vector<std::string> arguments = verb;
     arguments.push_back("--help");

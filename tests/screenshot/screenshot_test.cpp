@@ -1,5 +1,6 @@
 // Golden pictures of both layouts, drawn by EGL and by OSMesa and compared with the same files.
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -95,6 +96,54 @@ TEST_P(Screenshot, WearerLetterboxedWithInliersAndNoPose) {
   drawing->show_inliers(true);
   drawing->draw(scene, {});
   EXPECT_TRUE(matches_golden(drawing->read_picture(), "wearer_lost"));
+}
+
+// A hand with the outline of an ellipse that comes in over the lower border.
+Hand hand_at(float x, float y, float size) {
+  Hand hand;
+  hand.center = {x, y};
+  hand.size = size;
+  for (int i = 0; i < 48; ++i) {
+    const float angle = 0.1309F * static_cast<float>(i);
+    hand.outline.emplace_back(x + 0.5F * size * std::cos(angle), y + 0.8F * size * std::sin(angle));
+  }
+  return hand;
+}
+
+// A plain colour camera: no tracking, no pose.
+TEST_P(Screenshot, Hands) {
+  const auto drawing = renderer({.width = 480, .height = 360});
+  Scene scene = tiny_scene(pinhole(480, 360, 400, 400, 239.5, 179.5), world_from_viewer());
+  scene.pose_known = false;
+  scene.tracking_state.clear();
+  Hand pointing = hand_at(130, 290, 110);
+  pointing.gesture = "point";
+  pointing.score = 0.93F;
+  for (int i = 1; i <= 6; ++i) pointing.rings.push_back(18.F * static_cast<float>(i));
+  Hand grasping = hand_at(390, 230, 70);
+  grasping.gesture = "grasp";
+  grasping.score = 0.88F;
+  grasping.angle = -0.8F;
+  grasping.grasping = true;
+  Hand unknown = hand_at(430, 60, 50);
+  scene.hands = {pointing, grasping, unknown};
+  scene.cursors = {{{130, 196}, true, ""}};
+  scene.marks = {{"mug", {255, 70}, {50, 60}, true}, {"ball", {30, 60}, {40, 40}, false}};
+  drawing->draw(scene, {});
+  EXPECT_TRUE(matches_golden(drawing->read_picture(), "hands"));
+}
+
+// What is not a number is left out, not drawn somewhere.
+TEST_P(Screenshot, AHandThatIsNowhereIsNotDrawn) {
+  const auto drawing = renderer({.width = 320, .height = 240});
+  Scene scene = full_scene(320, 240);
+  drawing->draw(scene, {});
+  const cv::Mat without = drawing->read_picture();
+  Hand nowhere = hand_at(100, 100, 50);
+  nowhere.center.x() = std::numeric_limits<float>::quiet_NaN();
+  scene.hands = {nowhere};
+  drawing->draw(scene, {});
+  EXPECT_EQ(cv::norm(without, drawing->read_picture(), cv::NORM_INF), 0);
 }
 
 TEST_P(Screenshot, OperatorDesk) {

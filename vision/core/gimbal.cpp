@@ -26,6 +26,11 @@ Pose mount_from_camera(const GimbalModel& model, const Eigen::Vector3d& angles) 
   return pose;
 }
 
+Pose camera_motion(const GimbalModel& model, const Eigen::Vector3d& before,
+                   const Eigen::Vector3d& after) {
+  return mount_from_camera(model, before).inverse() * mount_from_camera(model, after);
+}
+
 Eigen::Vector3d clamped(const GimbalModel& model, const Eigen::Vector3d& angles) {
   return angles.cwiseMax(model.lower).cwiseMin(model.upper);
 }

@@ -5,7 +5,10 @@
 // sees it. Angles are ordered pan, tilt, roll whatever the order of the axes.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <iterator>
+#include <optional>
 
 #include <Eigen/Core>
 
@@ -44,7 +47,28 @@ struct GimbalState {
 
 Pose mount_from_camera(const GimbalModel& model, const Eigen::Vector3d& angles);
 
+// before_from_after of the camera when the axes turn and the mount stays: the motion that a filter
+// over the camera is told of.
+Pose camera_motion(const GimbalModel& model, const Eigen::Vector3d& before,
+                   const Eigen::Vector3d& after);
+
 // Within the limits.
 Eigen::Vector3d clamped(const GimbalModel& model, const Eigen::Vector3d& angles);
+
+// In a list in order of time: the state at `time`, interpolated between its neighbours.
+template <class States>
+std::optional<GimbalState> interpolated_state(const States& states, Timestamp time) {
+  const auto after =
+      std::lower_bound(states.begin(), states.end(), time,
+                       [](const GimbalState& state, Timestamp t) { return state.time < t; });
+  if (after == states.end()) return std::nullopt;
+  if (after->time == time) return *after;
+  if (after == states.begin()) return std::nullopt;
+  const GimbalState& before = *std::prev(after);
+  const double share =
+      static_cast<double>(time - before.time) / static_cast<double>(after->time - before.time);
+  return GimbalState{time, before.angles + share * (after->angles - before.angles),
+                     before.rates + share * (after->rates - before.rates)};
+}
 
 }  // namespace armsreach

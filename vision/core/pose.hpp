@@ -6,6 +6,8 @@
 // theory for state estimation in robotics", 2018, eqs. 172-179.
 #pragma once
 
+#include <cmath>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -21,9 +23,11 @@ Eigen::Vector3d so3_log(const Eigen::Quaterniond& rotation);  // angle in [0, pi
 class Pose {
  public:
   Pose() = default;  // identity
-  // `rotation` is normalised here.
+  // `rotation` is normalised here, unless it is a unit already: what was written and is read again
+  // stays the same to the bit.
   Pose(const Eigen::Quaterniond& rotation, const Eigen::Vector3d& translation)
-      : rotation_(rotation.normalized()), translation_(translation) {}
+      : rotation_(is_unit(rotation) ? rotation : rotation.normalized()),
+        translation_(translation) {}
   static Pose from_matrix(const Eigen::Matrix4d& matrix);
 
   static Pose exp(const Vector6d& tangent);
@@ -47,6 +51,10 @@ class Pose {
   bool is_finite() const;
 
  private:
+  static bool is_unit(const Eigen::Quaterniond& q) {
+    return std::abs(q.squaredNorm() - 1) < 1e-15;  // as near as normalising comes
+  }
+
   Eigen::Quaterniond rotation_ = Eigen::Quaterniond::Identity();
   Eigen::Vector3d translation_ = Eigen::Vector3d::Zero();
 };

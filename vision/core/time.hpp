@@ -14,6 +14,7 @@ constexpr double kLatestTime = 4e9;  // s, the year 2096 for those who count fro
 inline Timestamp timestamp_from_seconds(double seconds) {
   return static_cast<Timestamp>(std::llround(seconds * 1e9));
 }
-inline double seconds_from_timestamp(Timestamp time) { return static_cast<double>(time) * 1e-9; }
+// Divided, not multiplied by 1e-9: the nearest double, so that 15 s is written as 15.
+inline double seconds_from_timestamp(Timestamp time) { return static_cast<double>(time) / 1e9; }
 
 }  // namespace armsreach

@@ -47,7 +47,7 @@ inline bool trusted(const TrackedFrame& tracked) {
 // Whether the pose says where the camera is: not while it is lost, nor before it has seen anything.
 inline bool pose_known(const TrackedFrame& tracked) {
   if (tracked.state == TrackingState::initialising) return !tracked.depth.empty();
-  return tracked.state != TrackingState::lost;
+  return tracked.state != TrackingState::lost && tracked.state != TrackingState::untracked;
 }
 
 }  // namespace armsreach

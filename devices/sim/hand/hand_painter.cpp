@@ -1,19 +1,28 @@
 #include "devices/sim/hand/hand_painter.hpp"
 
+#include <algorithm>
+#include <array>
+#include <memory>
+
 #include "devices/sim/hand/arm.hpp"
+#include "devices/sim/hand/hand_skin.hpp"
 #include "devices/sim/hand/place.hpp"
 
 namespace armsreach::sim {
+namespace {
 
-// One surface as it is now.
-struct HandPainter::Cover {
-  std::vector<Eigen::Vector3f> colors;
+// Triangle sides in m: the finest that shows nails and wrinkles, and for hands seen from afar.
+constexpr std::array kCells{0.0035, 0.005, 0.007};
+constexpr double kClose = 0.05;  // m, nearer than any hand is looked at
+
+// One surface as it is and as a camera sees it.
+struct Cover {
   PosedSurface in_world;
-  std::vector<float> openness;
   std::vector<Eigen::Vector3f> in_camera;
   std::vector<Eigen::Vector3f> seen;
 
-  void look(const Pose& camera_from_world, const Lighting& lighting) {
+  void look(const std::vector<Eigen::Vector3f>& colors, const std::vector<float>& openness,
+            const Pose& camera_from_world, const Lighting& lighting) {
     seen = lit(colors, openness, in_world, lighting);
     const Eigen::Matrix3f turn = camera_from_world.rotation_matrix().cast<float>();
     const Eigen::Vector3f shift = camera_from_world.translation().cast<float>();
@@ -23,21 +32,44 @@ struct HandPainter::Cover {
   }
 };
 
+}  // namespace
+
 struct HandPainter::Body {
-  HandSurface surface;
+  Body(const HandActor& actor, HandMoment now)
+      : moment(std::move(now)), upper_arm(actor.anatomy(), actor.description().sleeve) {
+    const HandDescription& script = actor.description();
+    const Eigen::Vector3f bare = colors_of(script.skin).back;
+    arm_colors.assign(upper_arm.size(),
+                      script.sleeve ? Eigen::Vector3f(script.sleeve_color.cast<float>()) : bare);
+    arm_openness.assign(upper_arm.size(), 1.0F);
+  }
+
+  // In the posture of now; each is made when it is first asked for.
+  HandSkin& skin(const HandActor& actor, std::size_t level) {
+    std::unique_ptr<HandSkin>& skin = skins[level];
+    if (!skin)
+      skin = std::make_unique<HandSkin>(actor.description(), actor.anatomy(), kCells[level]);
+    skin->take_up(moment.pose);
+    return *skin;
+  }
+
+  HandMoment moment;  // now
+  std::array<std::unique_ptr<HandSkin>, kCells.size()> skins;
   UpperArm upper_arm;
+  std::vector<Eigen::Vector3f> arm_colors;
+  std::vector<float> arm_openness;
+  PosedSurface felt;
   Cover hand;
   Cover arm;
-  bool has_arm = false;  // now
 };
 
 namespace {
 
-void put_on_glove(const HandSurface& surface, std::vector<Eigen::Vector3f>& colors) {
-  const Eigen::Vector3f knit(0.11F, 0.11F, 0.12F);  // sRGB
-  for (std::size_t i = 0; i < colors.size(); ++i) {
-    if (surface.rest().vertices[i].y() > kGloveHem) colors[i] = knit;
-  }
+std::size_t level_for(double pixels_per_metre) {
+  constexpr double kSide = 2.2;  // px that a triangle's side may have
+  std::size_t level = kCells.size() - 1;
+  while (level > 0 && kCells[level] * pixels_per_metre > kSide) --level;
+  return level;
 }
 
 }  // namespace
@@ -46,17 +78,7 @@ HandPainter::HandPainter(const std::vector<HandDescription>& hands,
                          const HandSurroundings& surroundings) {
   for (const HandDescription& hand : hands) {
     const HandActor& actor = actors_.emplace_back(hand, surroundings);
-    HandSurfaceOptions options;
-    options.sleeve = hand.sleeve;
-    Body body{
-        HandSurface(actor.anatomy(), options), UpperArm(actor.anatomy(), hand.sleeve), {}, {}};
-    body.hand.colors = colors_of(body.surface, hand.skin, hand.sleeve_color);
-    if (hand.glove) put_on_glove(body.surface, body.hand.colors);
-    const Eigen::Vector3f bare = colors_of(hand.skin).back;
-    body.arm.colors.assign(body.upper_arm.size(),
-                           hand.sleeve ? Eigen::Vector3f(hand.sleeve_color.cast<float>()) : bare);
-    body.arm.openness.assign(body.upper_arm.size(), 1.0F);
-    bodies_.push_back(std::move(body));
+    bodies_.emplace_back(actor, actor.at(0, Pose()));
   }
 }
 HandPainter::~HandPainter() = default;
@@ -69,29 +91,27 @@ std::vector<HandTruth> HandPainter::truth(double time, const Pose& world_from_ca
   return all;
 }
 
-const HandSurface& HandPainter::surface(std::size_t hand) const { return bodies_[hand].surface; }
-const PosedSurface& HandPainter::skin(std::size_t hand) const {
-  return bodies_[hand].hand.in_world;
-}
-const PosedSurface& HandPainter::upper_arm(std::size_t hand) const {
-  return bodies_[hand].arm.in_world;
-}
-
 void HandPainter::set_time(double time, const Pose& world_from_camera) {
   for (std::size_t i = 0; i < actors_.size(); ++i) {
-    const HandActor& actor = actors_[i];
-    const bool left = actor.description().left;
     Body& body = bodies_[i];
-    const HandMoment moment = actor.at(time, world_from_camera);
-    const HandSkeleton skeleton = skeleton_of(actor.anatomy(), moment.pose);
-    body.surface.pose(skeleton, body.hand.in_world);
-    body.hand.openness = openness(skeleton, actor.anatomy(), body.hand.in_world);
-    place(moment.world_from_hand, left, body.hand.in_world);
-    body.has_arm = moment.arm.has_value();
-    if (!body.has_arm) continue;
-    body.upper_arm.pose(*moment.arm, body.arm.in_world);
-    place(moment.world_from_hand, left, body.arm.in_world);
+    body.moment = actors_[i].at(time, world_from_camera);
+    body.arm.in_world = {};
+    if (!body.moment.arm) continue;
+    body.upper_arm.pose(*body.moment.arm, body.arm.in_world);
+    place(body.moment.world_from_hand, actors_[i].description().left, body.arm.in_world);
   }
+}
+
+FeltSkin HandPainter::skin(std::size_t hand) {
+  Body& body = bodies_[hand];
+  const HandSkin& skin = body.skin(actors_[hand], kCells.size() - 1);
+  body.felt = skin.posed();
+  place(body.moment.world_from_hand, actors_[hand].description().left, body.felt);
+  return {skin.surface(), body.felt.positions};
+}
+
+std::span<const Eigen::Vector3f> HandPainter::upper_arm(std::size_t hand) const {
+  return bodies_[hand].arm.in_world.positions;
 }
 
 Raster::Images HandPainter::draw(Raster& raster, const Pose& world_from_camera,
@@ -102,10 +122,15 @@ Raster::Images HandPainter::draw(Raster& raster, const Pose& world_from_camera,
     Body& body = bodies_[i];
     const bool left = actors_[i].description().left;
     const auto id = static_cast<std::uint8_t>(i + 1);
-    body.hand.look(camera_from_world, lighting);
-    raster.draw({body.hand.in_camera, body.hand.seen, body.surface.rest().triangles, left, id});
-    if (!body.has_arm) continue;
-    body.arm.look(camera_from_world, lighting);
+    const Pose& world_from_hand = body.moment.world_from_hand;
+    const double away = (camera_from_world * world_from_hand.translation()).norm();
+    HandSkin& skin = body.skin(actors_[i], level_for(raster.camera().fx / std::max(away, kClose)));
+    body.hand.in_world = skin.posed();
+    place(world_from_hand, left, body.hand.in_world);
+    body.hand.look(skin.colors(), skin.openness(), camera_from_world, lighting);
+    raster.draw({body.hand.in_camera, body.hand.seen, skin.surface().rest().triangles, left, id});
+    if (!body.moment.arm) continue;
+    body.arm.look(body.arm_colors, body.arm_openness, camera_from_world, lighting);
     raster.draw({body.arm.in_camera, body.arm.seen, body.upper_arm.triangles(), left, id});
   }
   return raster.images();

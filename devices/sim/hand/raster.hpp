@@ -28,6 +28,8 @@ class Raster {
  public:
   explicit Raster(const Camera& camera);
 
+  const Camera& camera() const { return camera_; }
+
   void clear();
   // Triangles are cut off at the near plane (2 cm). What spans point to must stay until the images
   // have been read.

@@ -25,8 +25,8 @@ TrackedFramePtr tracked(std::int64_t index, TrackingState state = TrackingState:
 
 Composer composer(const EventLog& log, Placement placement = {}) {
   return Composer(
-      log, std::move(placement), [] { return std::vector<render::StageRow>(); },
-      [] { return 0.0; });
+      log, std::move(placement), HandInteraction("teapot"),
+      [] { return std::vector<render::StageRow>(); }, [] { return 0.0; });
 }
 
 // A click where nothing is mapped: one fault.

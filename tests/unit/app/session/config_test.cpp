@@ -37,6 +37,34 @@ TEST(Config, ReadsWhatItDocuments) {
   EXPECT_EQ(config->actions[0].insert, "teapot");
 }
 
+TEST(Config, AVoiceIsAutoOffOrAWavFile) {
+  EXPECT_EQ(read("")->speech.voice, "auto");
+  EXPECT_EQ(read("speech: {voice: off}")->speech.voice, "off");
+  EXPECT_EQ(read("speech: {voice: out/what-was-said.wav}")->speech.voice, "out/what-was-said.wav");
+  for (const char* text : {"speech: {voice: loud}", "speech: {voice: .wav}", "speech: {voice: ''}",
+                           "speech: {voices: auto}", "speech: auto"}) {
+    EXPECT_FALSE(read(text)) << text;
+  }
+}
+
+TEST(Config, ReadsWhatTheWearableTakes) {
+  const auto config = read(
+      "gesture: {vocabulary: asl-digits, table: mine.yaml, window: 0.4, insert: '', reach: 1,\n"
+      "  cursor_filter: {enabled: false}}\n"
+      "gaze: {mode: follow, target: 'colour:mug'}\nshow: {rings: true}\n");
+  ASSERT_TRUE(config) << config.error().message();
+  EXPECT_EQ(config->gesture.vocabulary, "asl-digits");
+  EXPECT_EQ(config->gesture.table, "mine.yaml");
+  EXPECT_EQ(config->gesture.insert, "");
+  EXPECT_FALSE(config->gesture.cursor_filter.enabled);
+  EXPECT_EQ(config->gaze.target, "colour:mug");
+  EXPECT_TRUE(config->show.rings);
+  EXPECT_FALSE(read("gesture: {fingers: 5}"));
+  EXPECT_FALSE(read("gaze: {target: 'colour:'}"));
+  EXPECT_FALSE(read("gaze: {mode: saccade}"));
+  EXPECT_FALSE(read("show: {outline: true}"));
+}
+
 TEST(Config, RefusesByName) {
   const std::vector<std::pair<std::string, std::string>> broken = {
       {"mappings: {enabled: true}", "unknown key 'mappings'"},

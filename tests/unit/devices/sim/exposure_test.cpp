@@ -94,7 +94,7 @@ TEST(Exposure, TheFastestPixelIsFound) {
 
 TEST(Exposure, MomentsLieEvenlyAroundTheMiddle) {
   EXPECT_EQ(exposure_moments(0.01, 0.2), std::vector{0.0});
-  const auto moments = exposure_moments(0.01, 4.5);
+  const auto moments = exposure_moments(0.01, 6.5);
   ASSERT_EQ(moments.size(), 5U);
   EXPECT_NEAR(moments.front(), -0.004, 1e-12);
   EXPECT_EQ(moments[2], 0);

@@ -39,11 +39,12 @@ Touches touches_at(double height, double pitch) {
   hand.keys.push_back(key);
   HandPainter painter({hand});
   painter.set_time(0, Pose());
-  std::vector<Eigen::Vector3f> skin = painter.skin(0).positions;
+  const FeltSkin felt = painter.skin(0);
+  std::vector<Eigen::Vector3f> skin(felt.points.begin(), felt.points.end());
   float lowest = 1;
   for (const Eigen::Vector3f& point : skin) lowest = std::min(lowest, point.z());
   for (Eigen::Vector3f& point : skin) point.z() += static_cast<float>(height) - lowest;
-  return HandContactFinder(with_board()).at(painter.surface(0), skin, {Pose()});
+  return HandContactFinder(with_board()).at(felt.surface, skin, {Pose()});
 }
 
 TEST(HandContacts, AreOfTheSkinNotOfTheScript) {

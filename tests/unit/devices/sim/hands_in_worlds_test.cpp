@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -52,22 +53,22 @@ class HandsOf {
         painter_(world_.hands, {poses_of(world_.things), shoulders_of(world_, world_.sensor, 1)}) {}
 
   const World& world() const { return world_; }
-  const HandPainter& painter() const { return painter_; }
+  HandPainter& painter() { return painter_; }
   Pose world_from_camera(double time) const {
     return carrier_(time) * world_.sensor.mount_from_camera;
   }
   void set_time(double time) { painter_.set_time(time, world_from_camera(time)); }
 
-  // How deep the skin of a hand is in a thing; every third point of it, which are 3.5 mm apart.
-  double depth_in(std::size_t hand, int thing, const Pose& world_from_thing, bool arm_too) const {
-    const std::vector<Vector3f>& skin = painter_.skin(hand).positions;
+  // How deep the skin of a hand is in a thing.
+  double depth_in(const FeltSkin& skin, int thing, const Pose& world_from_thing,
+                  bool arm_too) const {
     double deepest = 0;
     for (const Part& part : world_.parts) {
       if (part.thing != thing) continue;
       const Pose part_from_world = (world_from_thing * part.thing_from_part).inverse();
-      for (std::size_t i = 0; i < skin.size(); i += 3) {
-        if (painter_.surface(hand).bone_of(i) == kForearmBone && !arm_too) continue;
-        const Vector3d point = part_from_world * Vector3d(skin[i].cast<double>());
+      for (std::size_t i = 0; i < skin.points.size(); ++i) {
+        if (skin.surface.bone_of(i) == kForearmBone && !arm_too) continue;
+        const Vector3d point = part_from_world * Vector3d(skin.points[i].cast<double>());
         if (point.squaredNorm() > 1) continue;  // no part reaches as far but walls and floors
         deepest = std::max(deepest, -signed_distance(part.shape, point));
       }
@@ -91,11 +92,12 @@ TEST_P(HandsInWorlds, StayOutOfWhatTheyDoNotHold) {
     hands.set_time(time);
     const std::vector<Pose> things = poses_at(world, time);
     for (std::size_t hand = 0; hand < world.hands.size(); ++hand) {
+      const FeltSkin skin = hands.painter().skin(hand);
       for (std::size_t thing = 0; thing < things.size(); ++thing) {
         const std::string& name = world.things[thing].name;
         if (in_hand(world.hands[hand], name, time)) continue;
         const double deep =
-            hands.depth_in(hand, static_cast<int>(thing), things[thing], name == "table top");
+            hands.depth_in(skin, static_cast<int>(thing), things[thing], name == "table top");
         if (deep < allowed_depth(GetParam(), name)) continue;
         found[(world.hands[hand].left ? "left in " : "right in ") + name] +=
             " " + std::to_string(time).substr(0, 4) +
@@ -113,10 +115,9 @@ TEST_P(HandsInWorlds, ComeNoNearerToTheCameraThanTenCentimetres) {
     const Vector3f eye = hands.world_from_camera(time).translation().cast<float>();
     for (std::size_t hand = 0; hand < hands.world().hands.size(); ++hand) {
       float nearest = std::numeric_limits<float>::infinity();
-      for (const PosedSurface* surface :
-           {&hands.painter().skin(hand), &hands.painter().upper_arm(hand)}) {
-        for (const Vector3f& point : surface->positions)
-          nearest = std::min(nearest, (point - eye).norm());
+      for (const std::span<const Vector3f> points :
+           {hands.painter().skin(hand).points, hands.painter().upper_arm(hand)}) {
+        for (const Vector3f& point : points) nearest = std::min(nearest, (point - eye).norm());
       }
       EXPECT_GT(nearest, 0.1F) << "hand " << hand << " at " << time << " s";
     }

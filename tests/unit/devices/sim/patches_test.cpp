@@ -63,10 +63,10 @@ TEST(Patches, MeshesAreClosed) {
   world.parts.push_back({0, Box{{0.1, 0.2, 0.3}}, {}, 0});
   EXPECT_NEAR(volume(world), 0.006, 1e-9);
   world.parts[0].shape = Cylinder{0.05, 0.2};
-  // A polygon whose sides lie at most 30 um inside of the circle.
+  // A polygon whose sides lie at most 0.1 mm inside of the circle.
   const double round = std::numbers::pi * 0.05 * 0.05 * 0.2;
   EXPECT_LT(volume(world), round);
-  EXPECT_GT(volume(world), std::numbers::pi * (0.05 - 30e-6) * (0.05 - 30e-6) * 0.2);
+  EXPECT_GT(volume(world), std::numbers::pi * (0.05 - 1e-4) * (0.05 - 1e-4) * 0.2);
   world.parts[0].shape = TaperedBox{{0.1, 0.05}, {0.04, 0.06}, 0.03};
   // A prismatoid: the height over six times lower, four times middle, and upper area.
   EXPECT_NEAR(volume(world), 0.03 / 6 * (0.005 + 4 * 0.07 * 0.055 + 0.0024), 1e-9);

@@ -20,6 +20,14 @@ TEST(Event, JsonHasTimeTypeAndFields) {
   EXPECT_EQ(fault["component"], "tracking");
   EXPECT_EQ(fault["remedy"], "close something");
 
+  const auto gaze = json_from_event({0, GazeEvent{GazeMode::saccade, {0.5, -0.25, 0.125}, "mug"}});
+  EXPECT_EQ(gaze["type"], "gaze");
+  EXPECT_EQ(gaze["mode"], "saccade");
+  EXPECT_EQ(gaze["pan"], 0.5);
+  EXPECT_EQ(gaze["tilt"], -0.25);
+  EXPECT_EQ(gaze["roll"], 0.125);
+  EXPECT_EQ(gaze["target"], "mug");
+
   const auto insert = json_from_event({0, InsertEvent{"teapot", 3, Pose()}});
   EXPECT_EQ(insert["type"], "insert");
   EXPECT_EQ(insert["id"], 3);

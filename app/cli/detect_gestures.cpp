@@ -1,0 +1,67 @@
+// armsreach detect gestures: hands and the gestures they make, as JSON.
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "app/cli/commands.hpp"
+#include "app/cli/gesture_files.hpp"
+#include "app/cli/hand_pictures.hpp"
+#include "app/runtime/output_file.hpp"
+#include "vision/gesture/gesture_detector.hpp"
+
+namespace armsreach::app {
+namespace {
+
+struct DetectGesturesOptions {
+  std::vector<std::string> places;
+  std::string templates;
+  std::string vocabulary = "wearable";
+  SkinSource skin;
+  std::string json;
+};
+
+nlohmann::json json_from_hand(const HandPicture& picture, const gesture::HandObservation& hand) {
+  nlohmann::json json = {
+      {"file", picture.file},        {"frame", picture.frame}, {"hand", hand.hand},
+      {"gesture", nullptr},          {"score", hand.score},    {"angle", hand.angle},
+      {"x", hand.center.x()},        {"y", hand.center.y()},   {"tip_x", hand.fingertip.x()},
+      {"tip_y", hand.fingertip.y()}, {"area", hand.area},      {"scores", hand.scores}};
+  if (hand.gesture) json["gesture"] = *hand.gesture;
+  return json;
+}
+
+Status detect(const DetectGesturesOptions& options) {
+  auto templates = load_templates(options.templates, options.vocabulary);
+  if (!templates) return templates.error();
+  const gesture::GestureDetector detector(std::move(*templates));
+  nlohmann::json all = nlohmann::json::array();
+  const auto status =
+      for_hand_pictures(options.places, options.skin, [&](const HandPicture& picture) -> Status {
+        for (const auto& hand : detector.detect(picture.skin, picture.bgr))
+          all.push_back(json_from_hand(picture, hand));
+        return ok();
+      });
+  if (!status) return status;
+  return write_file(options.json, [&](std::ostream& out) { out << all.dump(1) << "\n"; });
+}
+
+}  // namespace
+
+void add_detect_gestures(CLI::App& detect_verb, Task* task) {
+  CLI::App* command = detect_verb.add_subcommand("gestures", "hands and their gestures");
+  auto o = std::make_shared<DetectGesturesOptions>();
+  command->add_option("places", o->places, "images, videos, or folders of images")->required();
+  command->add_option("--templates", o->templates,
+                      "folder that `learn gesture` wrote; without it the program's own");
+  command->add_option("--vocabulary", o->vocabulary, "the program knows wearable and asl-digits")
+      ->capture_default_str();
+  command->add_option("--skin", o->skin.model, "skin model, from `calibrate skin`");
+  command->add_option("--masks", o->skin.masks, "folder of masks of the skin, PNG by name");
+  command->add_option("--json", o->json, "write what was found here")->required();
+  command->callback([task, o] { *task = [o] { return detect(*o); }; });
+}
+
+}  // namespace armsreach::app

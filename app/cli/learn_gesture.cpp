@@ -1,0 +1,63 @@
+// armsreach learn gesture: templates of one gesture from pictures of a hand that makes it.
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/cli/commands.hpp"
+#include "app/cli/gesture_files.hpp"
+#include "app/cli/hand_pictures.hpp"
+#include "vision/gesture/gesture_detector.hpp"
+
+namespace armsreach::app {
+namespace {
+
+struct LearnGestureOptions {
+  std::string name;
+  std::vector<std::string> pictures;
+  std::string templates;
+  std::string vocabulary = "wearable";
+  SkinSource skin;
+};
+
+Status learn(const LearnGestureOptions& options) {
+  gesture::TemplateSet learnt;
+  const gesture::HandFinder finder;
+  const auto status =
+      for_hand_pictures(options.pictures, options.skin, [&](const HandPicture& picture) -> Status {
+        const auto blobs = gesture::find_hands(finder, picture.skin, picture.bgr);
+        if (blobs.empty() || !blobs[0].plausible) {
+          return Error{"no hand is found in it", picture.file,
+                       "show one hand before something of another colour, fit the skin's colour "
+                       "with `armsreach calibrate skin`, or give its outline with --masks"};
+        }
+        learnt.templates.push_back(
+            gesture::template_of(options.name, blobs[0].readings[0], learnt.layout));
+        return ok();
+      });
+  if (!status) return status;
+  if (auto added = add_to_templates(options.templates, options.vocabulary, options.name, learnt);
+      !added)
+    return added;
+  std::printf("%s: learnt from %zu picture%s\n", options.name.c_str(), learnt.templates.size(),
+              learnt.templates.size() == 1 ? "" : "s");
+  return ok();
+}
+
+}  // namespace
+
+void add_learn_gesture(CLI::App& learn_verb, Task* task) {
+  CLI::App* command = learn_verb.add_subcommand("gesture", "a hand's gesture from pictures of it");
+  auto o = std::make_shared<LearnGestureOptions>();
+  command->add_option("name", o->name, "what it is called")->required();
+  command->add_option("pictures", o->pictures, "pictures, or folders of them: one hand in each")
+      ->required();
+  command->add_option("--templates", o->templates, "folder to add it to")->required();
+  command->add_option("--vocabulary", o->vocabulary, "the gestures it is told apart from")
+      ->capture_default_str();
+  command->add_option("--skin", o->skin.model, "skin model, from `calibrate skin`");
+  command->add_option("--masks", o->skin.masks, "folder of masks of the hands, PNG by name");
+  command->callback([task, o] { *task = [o] { return learn(*o); }; });
+}
+
+}  // namespace armsreach::app

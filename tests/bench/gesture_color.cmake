@@ -1,0 +1,1 @@
+armsreach_bench_part(SOURCES gesture_color_bench.cpp LINKS armsreach_gesture opencv_imgproc)

@@ -1,0 +1,1 @@
+armsreach_bench_part(SOURCES ring_bench.cpp LINKS armsreach_gesture armsreach_hand opencv_imgproc)

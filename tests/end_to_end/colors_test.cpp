@@ -1,0 +1,157 @@
+// Skin is calibrated, colours are taught and found, all through the program.
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "tests/support/program.hpp"
+#include "tests/support/recordings.hpp"
+
+namespace armsreach::test {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+// A table with a thing on it.
+cv::Mat picture(const cv::Scalar& color, const cv::Point& at) {
+  cv::Mat bgr(200, 320, CV_8UC3);
+  cv::RNG random(3);
+  random.fill(bgr, cv::RNG::UNIFORM, 35, 55);
+  cv::circle(bgr, at, 16, color, -1);
+  return bgr;
+}
+
+nlohmann::json read_json(const fs::path& file) { return nlohmann::json::parse(read_text(file)); }
+
+TEST(EndToEndColors, TaughtByPointingAndFoundAgain) {
+  TemporaryFolder folder;
+  const cv::Scalar red(30, 30, 220), blue(220, 100, 30);
+  fs::create_directories(folder / "red");
+  cv::imwrite(folder / "red/1.png", picture(red, {100, 100}));
+  cv::imwrite(folder / "red/2.png", picture(red, {180, 90}));
+  cv::imwrite(folder / "blue.png", picture(blue, {220, 60}));
+  cv::imwrite(folder / "new.png", picture(blue, {90, 140}));
+  const std::string classes = folder / "classes.yaml";
+  const auto first =
+      run_armsreach({"learn", "colour", "red ball", folder / "red", "--classes", classes});
+  ASSERT_EQ(first.exit_code, 0) << first.output;
+  const auto second = run_armsreach({"learn", "colour", "blue ball", folder / "blue.png",
+                                     "--region", "190,30,60,60", "--classes", classes});
+  ASSERT_EQ(second.exit_code, 0) << second.output;
+  EXPECT_THAT(second.output, HasSubstr("2 classes"));
+  const auto found = run_armsreach({"detect", "colours", folder / "new.png", folder / "red",
+                                    "--classes", classes, "--json", folder / "found.json"});
+  ASSERT_EQ(found.exit_code, 0) << found.output;
+  const auto json = read_json(folder / "found.json");
+  ASSERT_EQ(json.size(), 3U);
+  ASSERT_EQ(json[0]["blobs"].size(), 1U);
+  EXPECT_EQ(json[0]["blobs"][0]["name"], "blue ball");
+  EXPECT_NEAR(json[0]["blobs"][0]["box"][0].get<int>(), 90 - 16, 1);
+  EXPECT_NEAR(json[0]["blobs"][0]["box"][3].get<int>(), 33, 2);
+  EXPECT_EQ(json[1]["blobs"][0]["name"], "red ball");
+}
+
+TEST(EndToEndColors, ToysAreNamedInOtherShots) {
+  ARMSREACH_RECORDING_OR_SKIP(toys, "objects/toys");
+  TemporaryFolder folder;
+  const std::string classes = folder / "classes.yaml";
+  const std::vector<std::string> names{"bball", "orange", "pear", "plego", "wball"};
+  std::vector<std::string> others;
+  std::vector<std::string> expected;
+  for (const std::string& name : names) {
+    std::vector<std::string> shots;
+    for (const auto& entry : fs::directory_iterator(toys / name)) {
+      const std::string file = entry.path();
+      if (file.find("_FG") == std::string::npos) shots.push_back(file);
+    }
+    std::sort(shots.begin(), shots.end());
+    ASSERT_EQ(shots.size(), 16U);
+    std::vector<std::string> command{"learn", "colour", name, "--classes", classes};
+    command.insert(command.begin() + 3, shots.begin(), shots.begin() + 8);
+    const auto learnt = run_armsreach(command);
+    ASSERT_EQ(learnt.exit_code, 0) << learnt.output;
+    others.insert(others.end(), shots.begin() + 8, shots.end());
+    expected.insert(expected.end(), 8, name);
+  }
+  std::vector<std::string> command{"detect", "colours", "--classes",
+                                   classes,  "--json",  folder / "found.json"};
+  command.insert(command.begin() + 2, others.begin(), others.end());
+  const auto found = run_armsreach(command);
+  ASSERT_EQ(found.exit_code, 0) << found.output;
+  const auto json = read_json(folder / "found.json");
+  int right = 0;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const auto& blobs = json[i]["blobs"];
+    right += !blobs.empty() && blobs[0]["name"] == expected[i];  // the largest
+  }
+  EXPECT_GE(right, 38) << "of 40";  // 95 %
+}
+
+TEST(EndToEndColors, SkinIsCalibratedWithAndWithoutMasksAndLive) {
+  TemporaryFolder folder;
+  cv::Mat bgr(240, 320, CV_8UC3), mask = cv::Mat::zeros(240, 320, CV_8UC1);
+  cv::RNG random(5);
+  random.fill(bgr, cv::RNG::UNIFORM, 60, 80);
+  cv::ellipse(mask, {160, 130}, {40, 55}, 0, 0, 360, cv::Scalar(255), -1);
+  bgr.setTo(cv::Scalar(120, 150, 205), mask);
+  fs::create_directories(folder / "masks");
+  cv::imwrite(folder / "me.png", bgr);
+  cv::imwrite(folder / "masks/me.png", mask);
+  for (const bool with_masks : {true, false}) {
+    std::vector<std::string> command{"calibrate", "skin", folder / "me.png", "--out",
+                                     folder / "skin.yaml"};
+    if (with_masks) command.insert(command.end(), {"--masks", folder / "masks"});
+    const auto result = run_armsreach(command);
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+    // Two plain colours: nothing can be confused.
+    EXPECT_THAT(result.output, HasSubstr("from 1 view, F1 1.000"));
+  }
+  const auto live =
+      run_armsreach({"calibrate", "skin", "--source", "images:" + folder.path().string(), "--model",
+                     folder / "skin.yaml", "--out", folder / "live.yaml"});
+  EXPECT_EQ(live.exit_code, 0) << live.output;
+}
+
+TEST(EndToEndColors, BadInputIsExplained) {
+  TemporaryFolder folder;
+  fs::create_directories(folder / "empty");
+  fs::create_directories(folder / "masks");
+  const std::string out = folder / "out.yaml";
+  const auto complaint = [&](const std::vector<std::string>& command) {
+    const auto result = run_armsreach(command);
+    EXPECT_EQ(result.exit_code, 2) << result.output;
+    return result.output;
+  };
+  cv::imwrite(folder / "grey.png", cv::Mat(60, 80, CV_8UC1, cv::Scalar(90)));
+  cv::imwrite(folder / "plain.png", cv::Mat(60, 80, CV_8UC3, cv::Scalar(90, 120, 60)));
+  cv::imwrite(folder / "masks/plain.png", cv::Mat(50, 80, CV_8UC1, cv::Scalar(255)));
+  write_text(folder / "classes.yaml", "cells: 128\nbackground: {luma: [1");
+  EXPECT_THAT(complaint({"calibrate", "skin", folder / "grey.png", "--out", out}),
+              HasSubstr("grey picture"));
+  EXPECT_THAT(complaint({"calibrate", "skin", folder / "empty", "--out", out}),
+              HasSubstr("no pictures in the folder"));
+  EXPECT_THAT(complaint({"calibrate", "skin", folder / "plain.png", "--out", out}),
+              HasSubstr("no view shows a hand"));
+  EXPECT_THAT(complaint({"calibrate", "skin", folder / "plain.png", "--masks", folder / "masks",
+                         "--out", out}),
+              HasSubstr("is 80x50, its picture 80x60"));
+  EXPECT_THAT(complaint({"learn", "colour", "x", folder / "plain.png", "--classes", out}),
+              HasSubstr("nothing stands out"));
+  EXPECT_THAT(complaint({"learn", "colour", "x", folder / "plain.png", "--region", "70,0,20,20",
+                         "--classes", out}),
+              HasSubstr("beyond the picture"));
+  EXPECT_THAT(complaint({"detect", "colours", folder / "plain.png", "--classes",
+                         folder / "classes.yaml", "--json", folder / "x.json"}),
+              HasSubstr("not readable as YAML"));
+  EXPECT_FALSE(fs::exists(out));
+}
+
+}  // namespace
+}  // namespace armsreach::test

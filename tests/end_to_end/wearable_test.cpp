@@ -1,0 +1,151 @@
+// The wearable experience through the command line: gestures of a simulated hand in their order,
+// the same in any schedule, on plain cameras, with a gimbal, and with images that have no colour.
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "tests/support/program.hpp"
+
+namespace armsreach::test {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+std::vector<json> events_of(const std::filesystem::path& file, const std::string& type) {
+  std::istringstream lines(read_text(file));
+  std::vector<json> events;
+  for (std::string line; std::getline(lines, line);) {
+    json event = json::parse(line);
+    if (event["type"] == type) events.push_back(std::move(event));
+  }
+  return events;
+}
+
+// Faults of the hands; images without a calibration are a fault of their own.
+std::vector<json> hands_faults(const std::filesystem::path& file) {
+  std::vector<json> faults = events_of(file, "fault");
+  std::erase_if(faults, [](const json& fault) { return fault["component"] != "hands"; });
+  return faults;
+}
+
+std::vector<std::string> run_of(const TemporaryFolder& folder, const std::string& source,
+                                const std::string& experience) {
+  return {"run",
+          "--source",
+          source,
+          "--experience",
+          experience,
+          "--pace",
+          "every-frame",
+          "--display",
+          "none",
+          "--events",
+          folder / "e.jsonl",
+          "--stats",
+          folder / "s.json"};
+}
+
+TEST(EndToEndWearable, AScriptedHandIsUnderstoodInOrderAndInsertsWhereItPoints) {
+  const TemporaryFolder folder;
+  const ProgramResult run = run_armsreach(
+      run_of(folder, "sim-hand:sim:bench,script=gestures,frames=200", "wearable,workspace"));
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  std::vector<std::string> told;
+  for (const json& event : events_of(folder / "e.jsonl", "gesture")) {
+    if (!event["name"].is_null()) told.push_back(event["name"]);
+  }
+  // What comes in between, on the way from one posture to the next, is not for this test.
+  told.erase(std::unique(told.begin(), told.end()), told.end());
+  EXPECT_THAT(told, ::testing::IsSupersetOf({"point", "L", "open", "fist", "grasp"}));
+  const auto first = [&told](const std::string& name) {
+    return std::find(told.begin(), told.end(), name);
+  };
+  EXPECT_LT(first("point"), first("L"));
+  EXPECT_LT(first("L"), first("fist"));
+  EXPECT_LT(first("fist"), first("grasp"));
+  EXPECT_EQ(events_of(folder / "e.jsonl", "insert").size(), 1U);
+  EXPECT_EQ(events_of(folder / "e.jsonl", "accept").size(), 1U);
+  const json stats = json::parse(read_text(folder / "s.json"));
+  EXPECT_EQ(stats["stages"]["hands"]["frames"], 200);
+  EXPECT_EQ(stats["stages"]["hands"]["faults"], 0);
+}
+
+// With a gimbal the camera itself moves by what was seen: the loop is closed in lock-step.
+TEST(EndToEndWearable, ThreadedTurnsAndRepeatsAreBitIdentical) {
+  std::vector<std::string> events;
+  for (const char* threads : {"true", "false", "true"}) {
+    const TemporaryFolder folder;
+    write_text(folder / "config.yaml", std::string("threads: ") + threads + "\n");
+    std::vector<std::string> arguments =
+        run_of(folder, "sim:kitchen-table,mount=shoulder,gimbal=yes,frames=90", "wearable");
+    arguments.insert(arguments.end(), {"--config", folder / "config.yaml"});
+    const ProgramResult run = run_armsreach(arguments);
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+    events.push_back(read_text(folder / "e.jsonl"));
+  }
+  EXPECT_THAT(events[0], HasSubstr("\"gaze\""));
+  EXPECT_EQ(events[0], events[1]);
+  EXPECT_EQ(events[0], events[2]);
+}
+
+TEST(EndToEndWearable, APlainColourCameraIsNotTracked) {
+  const TemporaryFolder folder;
+  const std::filesystem::path images = folder / "images";
+  std::filesystem::create_directories(images);
+  for (int i = 0; i < 5; ++i) {
+    cv::imwrite(images / (std::to_string(i) + ".png"),
+                cv::Mat(120, 160, CV_8UC3, cv::Scalar(140, 90, 20)));
+  }
+  const ProgramResult run = run_armsreach({"run", "--source", "images:" + images.string(), "--pace",
+                                           "every-frame", "--display", "none", "--events",
+                                           folder / "e.jsonl", "--stats", folder / "s.json"});
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_THAT(run.output, ::testing::Not(HasSubstr("tracked")));
+  EXPECT_TRUE(events_of(folder / "e.jsonl", "tracking").empty());
+  EXPECT_TRUE(hands_faults(folder / "e.jsonl").empty());
+  const json stages = json::parse(read_text(folder / "s.json"))["stages"];
+  EXPECT_EQ(stages["hands"]["frames"], 5);
+  EXPECT_FALSE(stages.contains("tracking"));
+}
+
+TEST(EndToEndWearable, GreyImagesAreOneFaultWithARemedy) {
+  const TemporaryFolder folder;
+  const std::filesystem::path images = folder / "images";
+  std::filesystem::create_directories(images);
+  for (int i = 0; i < 5; ++i) {
+    cv::imwrite(images / (std::to_string(i) + ".png"), cv::Mat(120, 160, CV_8UC1, cv::Scalar(90)));
+  }
+  const ProgramResult run = run_armsreach(run_of(folder, "images:" + images.string(), "wearable"));
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  const auto faults = hands_faults(folder / "e.jsonl");
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_THAT(faults[0]["remedy"].get<std::string>(), HasSubstr("colour"));
+  EXPECT_EQ(json::parse(read_text(folder / "s.json"))["frames"], 5);
+}
+
+TEST(EndToEndWearable, FilesThatAreWrongAreNamed) {
+  const TemporaryFolder folder;
+  write_text(folder / "table.yaml", "states: [{name: a}]\ntransitions: [{from: b}]\n");
+  for (const auto& [config, complaint] :
+       {std::pair<std::string, std::string>{"gesture: {templates: nowhere}", "no templates"},
+        {"gesture: {skin: nowhere.yaml}", "nowhere.yaml"},
+        {"gesture: {vocabulary: semaphore}", "semaphore"},
+        {"gesture: {table: " + (folder / "table.yaml").string() + "}", "transitions[0].from"}}) {
+    write_text(folder / "config.yaml", config);
+    std::vector<std::string> arguments = run_of(folder, "sim:bench,frames=2", "wearable");
+    arguments.insert(arguments.end(), {"--config", folder / "config.yaml"});
+    const ProgramResult run = run_armsreach(arguments);
+    EXPECT_EQ(run.exit_code, 2) << config;
+    EXPECT_THAT(run.output, HasSubstr(complaint)) << config;
+  }
+}
+
+}  // namespace
+}  // namespace armsreach::test

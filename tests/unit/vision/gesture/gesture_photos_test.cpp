@@ -1,0 +1,59 @@
+// The program's own templates on photographs of people who are not in them, by given outlines.
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
+
+#include "tests/support/recordings.hpp"
+#include "vision/gesture/gesture_detector.hpp"
+
+namespace armsreach::gesture {
+namespace {
+
+namespace fs = std::filesystem;
+
+GestureDetector own_detector(const std::string& vocabulary) {
+  TemplateSet set;
+  const fs::path folder = fs::path(ARMSREACH_SOURCE_DIR) / "assets/gestures" / vocabulary;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    std::ifstream in(entry.path());
+    EXPECT_TRUE(read_templates(in, entry.path().stem().string(), entry.path().string(), &set));
+  }
+  return GestureDetector(std::move(set));
+}
+
+struct Rates {
+  int all = 0, right = 0, wrong = 0;
+  double share(int count) const { return static_cast<double>(count) / all; }
+};
+
+void add(const GestureDetector& detector, const cv::Mat& mask, const std::string& truth,
+         Rates* rates) {
+  ++rates->all;
+  for (const HandObservation& hand : detector.detect(mask)) {
+    if (hand.gesture) ++(*hand.gesture == truth ? rates->right : rates->wrong);
+  }
+}
+
+TEST(GesturePhotos, NumeralsOfUnseenPeople) {
+  ARMSREACH_RECORDING_OR_SKIP(cutout, "hands/cutout");
+  const GestureDetector detector = own_detector("asl-digits");
+  Rates rates;
+  for (int numeral = 0; numeral < 10; ++numeral) {
+    for (const auto& entry : fs::directory_iterator(cutout / std::to_string(numeral))) {
+      std::vector<cv::Mat> channels;
+      cv::split(cv::imread(entry.path().string()), channels);
+      const cv::Mat brightest = cv::max(cv::max(channels[0], channels[1]), channels[2]);
+      add(detector, brightest >= 12, std::to_string(numeral), &rates);
+    }
+  }
+  std::cout << "right " << rates.share(rates.right) << ", wrong " << rates.share(rates.wrong)
+            << " of " << rates.all << '\n';
+  EXPECT_GE(rates.share(rates.right), 0.85);
+  EXPECT_LE(rates.share(rates.wrong), 0.05);
+}
+
+}  // namespace
+}  // namespace armsreach::gesture

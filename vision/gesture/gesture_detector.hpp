@@ -1,0 +1,62 @@
+// Hands and their gestures in a mask of skin.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <opencv2/core/mat.hpp>
+
+#include "vision/gesture/hand_observation.hpp"
+#include "vision/gesture/hand_shape.hpp"
+#include "vision/gesture/ring_matcher.hpp"
+
+namespace armsreach::gesture {
+
+struct GestureDetectorOptions {
+  HandFinderOptions hands;
+  Hands templates = Hands::both;
+  // g of a gesture that is told. (The paper's tau is 0.7; with these rings cupboards reach 0.9.)
+  double least_score = 0.9;
+  double least_margin = 0.01;  // by which it exceeds every other gesture's
+};
+
+// How far a hand that is straight on its forearm is turned from upright, rad clockwise; nothing
+// where no forearm was seen.
+std::optional<double> straight_angle(const HandShape& shape);
+
+// What a hand's shape gives when sampled by rings turned by `turn`.
+RingSignature signature_of(const HandShape& shape, const RingLayout& layout, double turn = 0);
+
+// A gesture learnt from one example: turned so that its forearm points down, where it has one.
+GestureTemplate template_of(const std::string& gesture, const HandShape& shape,
+                            const RingLayout& layout);
+
+// The match's angle, finer than the step between samples: turned copies of a hand agree within half
+// a degree.
+double fine_angle(const RingMatcher& matcher, const HandShape& shape, const RingMatch& match);
+
+// The blobs of a mask, parted from walls by `bgr` where the largest is no hand.
+std::vector<HandBlob> find_hands(const HandFinder& finder, const cv::Mat& skin, const cv::Mat& bgr);
+
+class GestureDetector {
+ public:
+  explicit GestureDetector(TemplateSet set, const GestureDetectorOptions& options = {});
+
+  const RingMatcher& matcher() const { return matcher_; }
+  // `skin`: CV_8UC1, 0 off the skin.
+  HandObservations detect(const cv::Mat& skin) const;
+  // The same, and where the largest blob is no hand by its shape, once more without the walls that
+  // `bgr` (CV_8UC3, of the mask's size) shows behind it.
+  HandObservations detect(const cv::Mat& skin, const cv::Mat& bgr) const;
+
+ private:
+  HandObservation observe(const HandBlob& blob) const;
+  HandObservations observe_all(const std::vector<HandBlob>& blobs) const;
+
+  GestureDetectorOptions options_;
+  HandFinder finder_;
+  RingMatcher matcher_;
+};
+
+}  // namespace armsreach::gesture

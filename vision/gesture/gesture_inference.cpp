@@ -1,0 +1,61 @@
+#include "vision/gesture/gesture_inference.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace armsreach::gesture {
+
+Gestures GestureInference::update(const HandObservations& seen, Timestamp time) {
+  Gestures out;
+  const std::vector<int> ids = identity_.assign(seen, time);
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const auto track = tracks_.find(ids[i]);
+    Track& of =
+        track != tracks_.end()
+            ? track->second
+            : tracks_
+                  .emplace(ids[i], Track{ModalFilter(options_.window),
+                                         GestureMachine(options_.table), OneEuro(options_.cursor)})
+                  .first->second;
+    out.hands.push_back(follow(ids[i], of, seen[i], time, &out.actions));
+  }
+  std::sort(out.hands.begin(), out.hands.end(),
+            [](const Hand& a, const Hand& b) { return a.id < b.id; });
+
+  const std::vector<int> known = identity_.known();
+  std::erase_if(tracks_, [&](const auto& entry) {
+    return !std::binary_search(known.begin(), known.end(), entry.first);
+  });
+  for (auto& [id, track] : tracks_) {
+    if (std::count(ids.begin(), ids.end(), id)) continue;
+    if (const auto action = track.machine.step(kGone, time))
+      out.actions.push_back({id, *action, track.last_pixel});
+  }
+  return out;
+}
+
+Hand GestureInference::follow(int id, Track& track, const HandObservation& seen, Timestamp time,
+                              std::vector<HandAction>* actions) {
+  const ModalFilter::Mode& mode = track.filter.update(seen.gesture.value_or(""), seen.score, time);
+  const auto action = track.machine.step(mode.name.empty() ? kNothing : mode.name, time);
+  const GestureTable::State& state = track.machine.state();
+
+  Hand hand{id, seen, mode.name, mode.score, state.name, {}, {}};
+  if (state.cursor) {
+    hand.cursor = track.cursor.filter(seen.fingertip, std::max(std::sqrt(seen.area), 1.0), time);
+  } else {
+    track.cursor.reset();
+  }
+  if (state.direction) hand.direction = seen.angle;
+  track.last_pixel = hand.cursor.value_or(seen.center);
+  if (action) actions->push_back({id, *action, track.last_pixel});
+  return hand;
+}
+
+std::optional<Eigen::Vector2d> midpoint(const std::vector<Hand>& hands) {
+  if (hands.empty()) return std::nullopt;
+  const Eigen::Vector2d& first = hands.front().seen.center;
+  return hands.size() == 1 ? first : Eigen::Vector2d(0.5 * (first + hands[1].seen.center));
+}
+
+}  // namespace armsreach::gesture
