@@ -28,6 +28,7 @@ struct TrueHand {
   std::string name;     // "right hand"
   int mask = 0;         // its value in Truth::masks; 0: it is not drawn
   std::string gesture;  // empty on the way from one to another
+  std::string holds;    // the thing that goes with it, or empty
   // Wrist; then of thumb, index, middle, ring and little finger from the palm out.
   std::array<Pose, kTrueHandJoints> world_from_joint;
 };
@@ -46,7 +47,9 @@ struct Truth {
   std::vector<TrueThing> things;
   std::vector<TrueHand> hands;
   std::vector<TrueMarker> markers;
-  std::vector<std::pair<std::string, std::string>> contacts;  // of things and hands that touch
+  // What touches: things, of which at least one moves, and things with parts of hands, such as
+  // "right hand/index" (thumb, index, middle, ring, little, palm, arm).
+  std::vector<std::pair<std::string, std::string>> contacts;
 };
 
 }  // namespace armsreach

@@ -45,10 +45,12 @@ Pose pose_from(const json& value) {
 json json_from_hand(const TrueHand& hand) {
   json joints = json::array();
   for (const Pose& joint : hand.world_from_joint) joints.push_back(json_from_pose(joint));
-  return {{"name", hand.name},
-          {"mask", hand.mask},
-          {"gesture", hand.gesture},
-          {"world_from_joint", std::move(joints)}};
+  json out{{"name", hand.name},
+           {"mask", hand.mask},
+           {"gesture", hand.gesture},
+           {"world_from_joint", std::move(joints)}};
+  if (!hand.holds.empty()) out["holds"] = hand.holds;
+  return out;
 }
 
 TrueHand hand_from(const json& value) {
@@ -56,6 +58,7 @@ TrueHand hand_from(const json& value) {
   hand.name = value.at("name").get<std::string>();
   hand.mask = value.at("mask").get<int>();
   hand.gesture = value.at("gesture").get<std::string>();
+  hand.holds = value.value("holds", "");
   const json& joints = value.at("world_from_joint");
   if (joints.size() != kTrueHandJoints) throw Complaint{"a hand has not 25 joints"};
   for (std::size_t i = 0; i < kTrueHandJoints; ++i)

@@ -33,7 +33,8 @@ Result<std::unique_ptr<Rig>> open_rig(const RigOptions& options) {
   auto spec = options.rig.empty() ? rig_from_specs(options.sources) : read_rig_file(options.rig);
   if (!spec) return spec.error();
   for (RigSensorSpec& sensor : spec->sensors) {
-    if (sensor.source.kind == "sim" && !option(sensor.source, "seed")) {
+    const bool simulated = sensor.source.kind == "sim" || sensor.source.kind == "sim-hand";
+    if (simulated && !option(sensor.source, "seed")) {
       sensor.source.options.emplace_back("seed", std::to_string(options.seed));
     }
   }

@@ -16,4 +16,10 @@ Carrier carrier_of(const World& world, const SensorDescription& sensor, std::uin
   return [wearer](double time) { return wearer.world_from_shoulder(time); };
 }
 
+Shoulders shoulders_of(const World& world, const SensorDescription& sensor, std::uint64_t seed) {
+  if (sensor.mount == Mount::path) return {};
+  const Wearer wearer(*world.wearer, world.path, seed);
+  return [wearer](bool left, double time) { return wearer.shoulder(left, time); };
+}
+
 }  // namespace armsreach::sim

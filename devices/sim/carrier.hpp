@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 
+#include "devices/sim/hand/hand_actor.hpp"
 #include "devices/sim/world.hpp"
 #include "vision/core/pose.hpp"
 
@@ -13,5 +14,7 @@ namespace armsreach::sim {
 using Carrier = std::function<Pose(double)>;
 
 Carrier carrier_of(const World& world, const SensorDescription& sensor, std::uint64_t seed);
+// Of the wearer with that seed, where the sensor is worn; else none.
+Shoulders shoulders_of(const World& world, const SensorDescription& sensor, std::uint64_t seed);
 
 }  // namespace armsreach::sim

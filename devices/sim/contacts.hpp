@@ -19,7 +19,8 @@ class ContactFinder {
  public:
   explicit ContactFinder(const World& world);
 
-  // Pairs (smaller index first) of which at least one moves, in order. Only what has moved since
+  // Pairs (smaller index first) of which at least one can move, in order: what stands on what for
+  // good is no news, and its pairs would be most. Only what has moved since
   // the last call is looked at anew.
   std::vector<std::pair<int, int>> at(const std::vector<Pose>& world_from_thing);
 

@@ -15,8 +15,10 @@
 #include "devices/sim/depth_sensor.hpp"
 #include "devices/sim/hand/hand_painter.hpp"
 #include "devices/sim/hand_layer.hpp"
+#include "devices/sim/hand_truth.hpp"
 #include "devices/sim/hand_yaml.hpp"
 #include "devices/sim/picture_light.hpp"
+#include "devices/sim/random.hpp"
 #include "render/assets.hpp"
 
 namespace armsreach {
@@ -24,7 +26,7 @@ namespace sim {
 namespace {
 
 constexpr double kColorNoise = 2;  // grey levels, of an ordinary camera indoors
-constexpr std::uint64_t kSeed = 1;
+enum Purpose : std::uint64_t { kForColor = 11, kForDepth };
 
 SensorDescription sensor_of(const Camera& camera) {
   SensorDescription sensor;
@@ -67,16 +69,18 @@ cv::Mat depth_for_color(const Frame& frame) {
 
 class HandSource final : public Source {
  public:
-  HandSource(std::unique_ptr<Source> scene, const std::vector<HandDescription>& hands)
+  HandSource(std::unique_ptr<Source> scene, const std::vector<HandDescription>& hands,
+             std::uint64_t seed)
       : scene_(std::move(scene)), painter_(hands) {
     const SensorInfo& info = *scene_->sensor();
     if (info.color_camera) {
       color_raster_.emplace(*info.color_camera);
-      color_sensor_.emplace(sensor_of(*info.color_camera), kSeed);
+      color_sensor_.emplace(sensor_of(*info.color_camera), mixed(seed, kForColor));
     }
     if (info.depth_camera) {
       depth_raster_.emplace(*info.depth_camera);
-      depth_sensor_.emplace(sensor_of(*info.depth_camera), info.depth_camera->fx, kSeed);
+      depth_sensor_.emplace(sensor_of(*info.depth_camera), info.depth_camera->fx,
+                            mixed(seed, kForDepth));
     }
     in_world_ = std::any_of(hands.begin(), hands.end(), [](const HandDescription& hand) {
       return hand.frame == HandFrame::world;
@@ -84,6 +88,7 @@ class HandSource final : public Source {
   }
 
   const std::shared_ptr<const SensorInfo>& sensor() const override { return scene_->sensor(); }
+  std::vector<std::shared_ptr<Actuator>> actuators() const override { return scene_->actuators(); }
   void stop() override { scene_->stop(); }
   Events take_events() override { return scene_->take_events(); }
   bool live() const override { return scene_->live(); }
@@ -106,18 +111,46 @@ class HandSource final : public Source {
  private:
   void draw_hands(Frame& frame) {
     const Pose world_from_camera = frame.world_from_camera.value_or(Pose());
-    painter_.set_time(seconds_from_timestamp(frame.time - *start_), world_from_camera);
-    if (!frame.color.empty() && color_raster_) draw_color(frame, world_from_camera);
-    if (!frame.depth.empty() && depth_raster_) draw_depth(frame, world_from_camera);
+    const double time = seconds_from_timestamp(frame.time - *start_);
+    painter_.set_time(time, world_from_camera);
+    auto truth = std::make_shared<Truth>(frame.truth ? *frame.truth : Truth());
+    if (!frame.truth) truth->world_from_camera = world_from_camera;
+    const int last = last_mask(*truth);
+    const cv::Mat exact = frame.truth ? frame.truth->depth : cv::Mat();
+    if (!frame.color.empty() && color_raster_) {
+      const Raster::Images hands = draw_color(frame, world_from_camera, exact);
+      lay_truth(hands, frame.color.size(), last, *truth);
+    }
+    if (!frame.depth.empty() && depth_raster_) {
+      const Raster::Images hands = draw_depth(frame, world_from_camera, exact);
+      if (frame.color.empty()) lay_truth(hands, frame.depth.size(), last, *truth);
+    }
+    add_hands(painter_.truth(time, world_from_camera), *truth);
+    frame.truth = std::move(truth);
   }
 
-  void draw_color(Frame& frame, const Pose& world_from_camera) {
+  // In the picture's own camera. A recording knows no depth to lay the hands into.
+  static void lay_truth(const Raster::Images& hands, const cv::Size& size, int last, Truth& truth) {
+    const bool known = truth.masks.size() == size;
+    truth.masks = known ? truth.masks.clone() : cv::Mat::zeros(size, CV_16U);
+    lay_masks(hands, last, truth.masks);
+    if (truth.depth.size() != size) return;
+    truth.depth = truth.depth.clone();
+    lay_depth(hands, truth.depth);
+  }
+
+  // What hides hands: the exact depth where it is known, else what is measured.
+  static cv::Mat hiding(const cv::Mat& exact, const cv::Size& size, const cv::Mat& measured) {
+    return exact.size() == size ? exact : measured;
+  }
+
+  Raster::Images draw_color(Frame& frame, const Pose& world_from_camera, const cv::Mat& exact) {
     const Pose world_from_color = world_from_camera * frame.sensor->color_from_depth.inverse();
     light_.look_at(frame.color);
     Raster::Images hands =
         painter_.draw(*color_raster_, world_from_color, light_.lighting(world_from_color));
-    if (hands.place.empty()) return;
-    hide_behind(depth_for_color(frame), hands);
+    if (hands.place.empty()) return hands;
+    hide_behind(hiding(exact, frame.color.size(), depth_for_color(frame)), hands);
     cv::Mat drawn = frame.color.clone();
     lay_color(hands, drawn);
     // Lens and noise of a camera, on the hand alone: the picture behind has its own.
@@ -126,13 +159,14 @@ class HandSource final : public Source {
       measured(hands.place).copyTo(drawn(hands.place), hands.coverage);
     }
     frame.color = drawn;
+    return hands;
   }
 
-  void draw_depth(Frame& frame, const Pose& world_from_camera) {
+  Raster::Images draw_depth(Frame& frame, const Pose& world_from_camera, const cv::Mat& exact) {
     Raster::Images hands =
         painter_.draw(*depth_raster_, world_from_camera, light_.lighting(world_from_camera));
-    if (hands.place.empty()) return;
-    hide_behind(frame.depth, hands);
+    if (hands.place.empty()) return hands;
+    hide_behind(hiding(exact, frame.depth.size(), frame.depth), hands);
     cv::Mat alone(frame.depth.size(), CV_32F, std::numeric_limits<float>::quiet_NaN());
     lay_depth(hands, alone);
     const cv::Mat returned(frame.depth.size(), CV_8U, cv::Scalar(kSkinReturns));
@@ -140,6 +174,7 @@ class HandSource final : public Source {
     cv::Mat depth = frame.depth.clone();
     measured.copyTo(depth, alone == alone);
     frame.depth = depth;
+    return hands;
   }
 
   std::unique_ptr<Source> scene_;
@@ -156,9 +191,9 @@ class HandSource final : public Source {
 // A script by the name of one that comes with the program, or by its file.
 Result<std::vector<HandDescription>> load_script(const std::string& script) {
   if (!script.ends_with(".yaml")) {
-    if (script != "gestures" && script != "tour") {
+    if (script != "gestures" && script != "numerals" && script != "tour") {
       return Error{"there is no hand script '" + script + "'", "script=" + script,
-                   "give gestures, tour, or a file that ends in .yaml"};
+                   "give gestures, numerals, tour, or a file that ends in .yaml"};
     }
     const std::string name = "hands/" + script + ".yaml";
     std::istringstream text{std::string(render::asset(name))};
@@ -172,8 +207,9 @@ Result<std::vector<HandDescription>> load_script(const std::string& script) {
 }  // namespace
 
 std::unique_ptr<Source> make_hand_source(std::unique_ptr<Source> scene,
-                                         const std::vector<HandDescription>& hands) {
-  return std::make_unique<HandSource>(std::move(scene), hands);
+                                         const std::vector<HandDescription>& hands,
+                                         std::uint64_t seed) {
+  return std::make_unique<HandSource>(std::move(scene), hands, seed);
 }
 
 }  // namespace sim
@@ -181,8 +217,10 @@ std::unique_ptr<Source> make_hand_source(std::unique_ptr<Source> scene,
 SourceKind hand_source_kind(const std::vector<SourceKind>& others) {
   SourceKind kind;
   kind.name = "sim-hand";
-  kind.usage = "sim-hand:SOURCE[,script=gestures|tour|FILE.yaml][,the source's own options]";
-  kind.option_keys = {"script"};
+  kind.usage =
+      "sim-hand:SOURCE[,script=gestures|numerals|tour|FILE.yaml][,seed=N][,the source's own "
+      "options]";
+  kind.option_keys = {"script", "seed"};
   for (const SourceKind& other : others) {
     for (const std::string& key : other.option_keys) {
       if (std::count(kind.option_keys.begin(), kind.option_keys.end(), key) == 0)
@@ -193,14 +231,24 @@ SourceKind hand_source_kind(const std::vector<SourceKind>& others) {
                        const OpenOptions& options) -> Result<std::unique_ptr<Source>> {
     auto behind = parse_source_spec(spec.place);
     if (!behind) return behind.error();
+    const auto seed = number_option(spec, "seed", 1, 0, 1e15);
+    if (!seed) return seed.error();
+    const auto kind_behind = std::find_if(others.begin(), others.end(), [&](const SourceKind& one) {
+      return one.name == behind->kind;
+    });
     for (const auto& one : spec.options) {
-      if (one.first != "script") behind->options.push_back(one);
+      const bool own = one.first == "script";
+      // The seed is the hand's, and the source's own if it has one.
+      const bool unknown =
+          one.first == "seed" && kind_behind != others.end() &&
+          std::count(kind_behind->option_keys.begin(), kind_behind->option_keys.end(), "seed") == 0;
+      if (!own && !unknown) behind->options.push_back(one);
     }
     auto hands = sim::load_script(option(spec, "script").value_or("gestures"));
     if (!hands) return hands.error();
     auto scene = open_source(*behind, options, others);
     if (!scene) return scene;
-    return sim::make_hand_source(std::move(*scene), *hands);
+    return sim::make_hand_source(std::move(*scene), *hands, static_cast<std::uint64_t>(*seed));
   };
   kind.probe = [] {
     return std::vector<Availability>{

@@ -9,19 +9,30 @@
 namespace armsreach::sim {
 
 HandStage::HandStage(const World& world, const Camera& camera,
-                     std::function<Pose(double)> world_from_carrier)
+                     std::function<Pose(double)> world_from_carrier, const Shoulders& shoulders)
     : things_(world.things.size()),
       light_(world.light),
       camera_(camera),
       world_from_carrier_(std::move(world_from_carrier)),
-      painter_(world.hands, poses_of(world.things)),
+      painter_(world.hands, {poses_of(world.things), shoulders}),
       raster_(camera),
-      holding_(world, painter_.actors(), world_from_carrier_) {
+      holding_(world, painter_.actors(), world_from_carrier_),
+      contacts_(world) {
   if (world.infrared) worn_.emplace(world.hands.front(), *world.infrared, poses_of(world.things));
 }
 
 std::vector<HandTruth> HandStage::truth(double time) const {
   return painter_.truth(time, world_from_carrier_(time));
+}
+
+std::vector<std::vector<std::pair<int, HandPart>>> HandStage::touched(
+    const std::vector<Pose>& world_from_thing) {
+  std::vector<std::vector<std::pair<int, HandPart>>> touched;
+  for (std::size_t i = 0; i < painter_.actors().size(); ++i) {
+    const FeltSkin skin = painter_.skin(i);
+    touched.push_back(contacts_.at(skin.surface, skin.points, world_from_thing));
+  }
+  return touched;
 }
 
 std::vector<TrueMarker> HandStage::markers(double time, const Pose& world_from_camera,

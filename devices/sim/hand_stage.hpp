@@ -4,9 +4,11 @@
 
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "devices/sim/hand/hand_painter.hpp"
+#include "devices/sim/hand_contacts.hpp"
 #include "devices/sim/holding.hpp"
 #include "devices/sim/infrared/infrared_hand.hpp"
 #include "devices/sim/world.hpp"
@@ -19,12 +21,15 @@ namespace armsreach::sim {
 class HandStage {
  public:
   // `world_from_carrier`: where the camera would be at any time if no gimbal turned it; what hands
-  // before the camera are before.
+  // before the camera are before. `shoulders`: of who wears the camera, or none.
   HandStage(const World& world, const Camera& camera,
-            std::function<Pose(double)> world_from_carrier);
+            std::function<Pose(double)> world_from_carrier, const Shoulders& shoulders);
 
   std::vector<PlacedThing> held(double time) const { return holding_.at(time); }
   std::vector<HandTruth> truth(double time) const;
+  // What each hand touches as it was last drawn.
+  std::vector<std::vector<std::pair<int, HandPart>>> touched(
+      const std::vector<Pose>& world_from_thing);
   // What the first hand wears for an infra-red camera; visible: whether this depth, which it was
   // drawn into, has the middle of it.
   std::vector<TrueMarker> markers(double time, const Pose& world_from_camera,
@@ -40,6 +45,7 @@ class HandStage {
   HandPainter painter_;
   Raster raster_;
   Holding holding_;
+  HandContactFinder contacts_;
   std::optional<InfraredHand> worn_;
 };
 

@@ -63,7 +63,7 @@ HandDescription hand_from(YamlMap map) {
     if (!tone) throw Complaint{"'" + map.path("skin") + "': there is no skin '" + skin + "'"};
     hand.skin = *tone;
   }
-  hand.straight = map.number("straight", 0, 1, 0);
+  if (map.find("shoulder")) hand.shoulder = map.vector<3>("shoulder");
   hand.sleeve = static_cast<bool>(map.find("sleeve"));
   if (hand.sleeve) hand.sleeve_color = map.color("sleeve");
   const YAML::Node keys = map.need("keys");
@@ -74,6 +74,9 @@ HandDescription hand_from(YamlMap map) {
     hand.keys.push_back(key);
   }
   if (hand.keys.empty()) throw Complaint{"'" + map.path("keys") + "' is empty"};
+  hand.repeat = map.number("repeat", 0, 1e6, 0);
+  if (hand.repeat > 0 && hand.repeat < hand.keys.back().time)
+    throw Complaint{"'" + map.path("repeat") + "' comes before the last of its keys"};
   map.refuse_others();
   return hand;
 }
@@ -82,6 +85,7 @@ HandDescription hand_from(YamlMap map) {
 
 std::vector<HandDescription> hands_from(const YAML::Node& list, const std::string& name) {
   if (!list.IsSequence()) throw Complaint{"'" + name + "' is not a list"};
+  if (list.size() == 0) throw Complaint{"'" + name + "' is empty: leave it out for no hands"};
   std::vector<HandDescription> hands;
   for (std::size_t i = 0; i < list.size(); ++i)
     hands.push_back(hand_from({list[i], name + "[" + std::to_string(i) + "]"}));
@@ -96,7 +100,8 @@ Result<std::vector<HandDescription>> read_hand_script(std::istream& in, const st
     map.refuse_others();
     for (const HandDescription& hand : hands) {
       for (const HandKey& key : hand.keys) {
-        if (!key.on.empty()) throw Complaint{"'on' needs a world, whose things are known"};
+        if (!key.on.empty() || !key.hold.empty())
+          throw Complaint{"'on' and 'hold' need a world, whose things are known"};
       }
     }
     return hands;

@@ -12,6 +12,7 @@
 #include "devices/sim/depth_sensor.hpp"
 #include "devices/sim/exposure.hpp"
 #include "devices/sim/hand_stage.hpp"
+#include "devices/sim/hand_truth.hpp"
 #include "devices/sim/motion.hpp"
 #include "devices/sim/random.hpp"
 #include "devices/sim/sim_gimbal.hpp"
@@ -34,8 +35,6 @@ std::shared_ptr<const SensorInfo> sensor_info(const World& world, const SimOptio
   return info;
 }
 
-std::string name_of(const HandTruth& hand) { return hand.left ? "left hand" : "right hand"; }
-
 class SimSource final : public Source {
  public:
   SimSource(const World& world, const SimOptions& options)
@@ -51,9 +50,11 @@ class SimSource final : public Source {
                                             world.sensor.gimbal_script);
     }
     if (world.hands.empty()) return;
-    hands_.emplace(world, sensor_->camera(), [this](double time) {
+    const auto world_from_carrier = [this](double time) {
       return carrier_(time) * camera_on_mount(Eigen::Vector3d::Zero());
-    });
+    };
+    hands_.emplace(world, sensor_->camera(), world_from_carrier,
+                   shoulders_of(world, world.sensor, mixed(options.seed, kForPath)));
   }
 
   const std::shared_ptr<const SensorInfo>& sensor() const override { return sensor_; }
@@ -137,6 +138,7 @@ class SimSource final : public Source {
     return exact;
   }
 
+  // Right after what was drawn for that time.
   std::shared_ptr<const Truth> truth_at(double path_time, const ExactImages& exact) {
     auto truth = std::make_shared<Truth>();
     truth->world_from_camera = camera_at(path_time);
@@ -153,19 +155,18 @@ class SimSource final : public Source {
     if (!hands_) return truth;
     const double script = script_time(path_time);
     add_hands(hands_->truth(script), *truth);
+    add_touches(poses, *truth);
     truth->markers = hands_->markers(script, truth->world_from_camera, exact.depth);
     return truth;
   }
 
-  void add_hands(const std::vector<HandTruth>& hands, Truth& truth) const {
-    for (const HandTruth& hand : hands) {
-      TrueHand one;
-      one.name = name_of(hand);
-      one.mask = static_cast<int>(world_.things.size() + truth.hands.size()) + 1;
-      if (hand.gesture) one.gesture = name(*hand.gesture);
-      one.world_from_joint = hand.world_from_joint;
-      truth.hands.push_back(std::move(one));
-      if (!hand.holds.empty()) truth.contacts.emplace_back(hand.holds, name_of(hand));
+  void add_touches(const std::vector<Pose>& things, Truth& truth) {
+    const auto touched = hands_->touched(things);
+    for (std::size_t hand = 0; hand < touched.size(); ++hand) {
+      for (const auto& [thing, part] : touched[hand]) {
+        truth.contacts.emplace_back(world_.things[static_cast<std::size_t>(thing)].name,
+                                    truth.hands[hand].name + "/" + std::string(name(part)));
+      }
     }
   }
 

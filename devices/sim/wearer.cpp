@@ -128,4 +128,10 @@ Pose Wearer::world_from_shoulder(double time) const {
               Vector3d::Zero());
 }
 
+Vector3d Wearer::shoulder(bool left, double time) const {
+  const Vector3d right(0, -kHalfShoulders * height_ + 0.03, (kShoulders - kHips) * height_ - 0.04);
+  return body_at(time).world_from_chest *
+         Vector3d(right.x(), left ? -right.y() : right.y(), right.z());
+}
+
 }  // namespace armsreach::sim

@@ -17,6 +17,7 @@ class Wearer {
   // Mounts with a camera's axes: x right, y down, z forward.
   Pose world_from_head(double time) const;      // between the eyes, looking where they look
   Pose world_from_shoulder(double time) const;  // on the right one, ahead and down
+  Eigen::Vector3d shoulder(bool left, double time) const;  // its joint, in the world
 
  private:
   struct Body {

@@ -15,6 +15,8 @@ namespace {
 // A posture counts as a gesture within this share of the way to or from it.
 constexpr double kArrived = 0.1;
 
+const Eigen::Vector3d kDown(0, 0, -1);  // in the world
+
 // From 0 to 1 with no velocity and no acceleration at either end.
 double eased(double s) { return s * s * s * (10 + s * (6 * s - 15)); }
 
@@ -35,15 +37,16 @@ HandPose key_pose(const HandKey& key, const HandAnatomy& anatomy) {
 
 }  // namespace
 
-HandActor::HandActor(const HandDescription& description, ThingPoses world_from_thing)
+HandActor::HandActor(const HandDescription& description, HandSurroundings surroundings)
     : description_(description),
-      world_from_thing_(std::move(world_from_thing)),
+      surroundings_(std::move(surroundings)),
       anatomy_(random_anatomy(description.seed)) {
   for (const HandKey& key : description_.keys) poses_.push_back(key_pose(key, anatomy_));
 }
 
 HandActor::Stretch HandActor::stretch(double time) const {
   const std::vector<HandKey>& keys = description_.keys;
+  if (description_.repeat > 0) time -= description_.repeat * std::floor(time / description_.repeat);
   const auto after = std::upper_bound(keys.begin(), keys.end(), time,
                                       [](double t, const HandKey& key) { return t < key.time; });
   if (after == keys.begin()) return {0, 0, 0};
@@ -74,7 +77,7 @@ Pose HandActor::thing_from_hand(const HandKey& key) const {
 
 Pose HandActor::world_from_key(const HandKey& key, double time,
                                const Pose& world_from_camera) const {
-  if (!key.on.empty()) return world_from_thing_(key.on, time) * thing_from_hand(key);
+  if (!key.on.empty()) return surroundings_.world_from_thing(key.on, time) * thing_from_hand(key);
   if (description_.frame == HandFrame::camera) return world_from_camera * frame_from_hand(key);
   return frame_from_hand(key);
 }
@@ -91,21 +94,52 @@ Pose HandActor::world_from_hand(double time, const Pose& world_from_camera) cons
   return {turn, at - turn * palm()};
 }
 
+std::optional<Eigen::Vector3d> HandActor::world_shoulder(double time,
+                                                         const Pose& world_from_camera) const {
+  if (description_.shoulder) {
+    if (description_.frame == HandFrame::world) return description_.shoulder;
+    return world_from_camera * *description_.shoulder;
+  }
+  if (surroundings_.shoulders) return surroundings_.shoulders(description_.left, time);
+  return std::nullopt;
+}
+
+HandMoment HandActor::at(double time, const Pose& world_from_camera) const {
+  HandMoment moment{world_from_hand(time, world_from_camera), pose(time), std::nullopt};
+  const auto shoulder = world_shoulder(time, world_from_camera);
+  if (!shoulder) return moment;
+  const Pose hand_from_world = moment.world_from_hand.inverse();
+  Eigen::Vector3d in_hand = hand_from_world * *shoulder;
+  // Before a camera whose place in the world is not known, down is the picture's.
+  const bool in_picture = description_.shoulder && description_.frame == HandFrame::camera;
+  Eigen::Vector3d down =
+      hand_from_world.rotation() *
+      (in_picture ? world_from_camera.rotation() * Eigen::Vector3d::UnitY() : kDown);
+  if (description_.left) {
+    in_hand.x() = -in_hand.x();
+    down.x() = -down.x();
+  }
+  moment.arm = arm_to_shoulder(anatomy_, moment.pose, in_hand, down);
+  moment.pose[wrist_flexion] = moment.arm->wrist_flexion;
+  moment.pose[wrist_deviation] = moment.arm->wrist_deviation;
+  return moment;
+}
+
 HandTruth HandActor::truth(double time, const Pose& world_from_camera) const {
   const Stretch s = stretch(time);
   const HandKey& from = description_.keys[s.from];
   const HandKey& to = description_.keys[s.to];
   HandTruth truth;
   truth.left = description_.left;
-  truth.pose = pose(time);
+  const HandMoment moment = at(time, world_from_camera);
+  truth.pose = moment.pose;
   truth.holds = from.hold;
   if (from.gesture == to.gesture || s.fraction < kArrived) truth.gesture = from.gesture;
   if (s.fraction > 1 - kArrived) truth.gesture = to.gesture;
-  const Pose world_from_right = world_from_hand(time, world_from_camera);
   const HandSkeleton skeleton = skeleton_of(anatomy_, truth.pose);
   for (std::size_t i = 0; i < kHandJointCount; ++i) {
     const Pose& joint = skeleton.hand_from_joint[i];
-    truth.world_from_joint[i] = world_from_right * (truth.left ? mirrored(joint) : joint);
+    truth.world_from_joint[i] = moment.world_from_hand * (truth.left ? mirrored(joint) : joint);
   }
   return truth;
 }

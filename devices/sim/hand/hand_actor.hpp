@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "devices/sim/hand/arm.hpp"
 #include "devices/sim/hand/hand_script.hpp"
 #include "devices/sim/hand/hand_surface.hpp"
 #include "devices/sim/hand/skeleton.hpp"
@@ -25,20 +26,38 @@ struct HandTruth {
 
 // Of a thing by its name, at a time.
 using ThingPoses = std::function<Pose(const std::string&, double)>;
+// In the world, of whoever has the hands, at a time.
+using Shoulders = std::function<Eigen::Vector3d(bool left, double time)>;
+
+// What hands hang on and act on. Without shoulders they have those of their scripts, if any.
+struct HandSurroundings {
+  ThingPoses world_from_thing;
+  Shoulders shoulders;
+};
+
+// How a hand and its arm are at one instant. Of a left hand, the right one's whose mirror image it
+// is.
+struct HandMoment {
+  Pose world_from_hand;
+  HandPose pose;
+  std::optional<Arm> arm;  // none: it ends behind the elbow
+};
 
 class HandActor {
  public:
-  // `world_from_thing`: for scripts with keys on things.
-  explicit HandActor(const HandDescription& description, ThingPoses world_from_thing = {});
+  // Surroundings have `world_from_thing` where the script has keys on things.
+  explicit HandActor(const HandDescription& description, HandSurroundings surroundings = {});
 
   const HandDescription& description() const { return description_; }
   const HandAnatomy& anatomy() const { return anatomy_; }
 
-  // Places and postures change with a smooth start and stop between two keys.
+  // Places and postures change with a smooth start and stop between two keys. This is the script's
+  // posture, whatever the arm does to the wrist.
   HandPose pose(double time) const;
   // `world_from_camera`: where the camera is at that time; of a left hand, the frame of the right
   // one that it is the mirror image of.
   Pose world_from_hand(double time, const Pose& world_from_camera) const;
+  HandMoment at(double time, const Pose& world_from_camera) const;
   HandTruth truth(double time, const Pose& world_from_camera) const;
 
  private:
@@ -54,8 +73,10 @@ class HandActor {
   // Where a key puts the hand, at any time.
   Pose world_from_key(const HandKey& key, double time, const Pose& world_from_camera) const;
 
+  std::optional<Eigen::Vector3d> world_shoulder(double time, const Pose& world_from_camera) const;
+
   HandDescription description_;
-  ThingPoses world_from_thing_;
+  HandSurroundings surroundings_;
   HandAnatomy anatomy_;
   std::vector<HandPose> poses_;  // of the keys
 };

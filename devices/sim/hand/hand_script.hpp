@@ -36,11 +36,14 @@ struct HandDescription {
   bool left = false;
   std::uint64_t seed = 1;  // of the person
   SkinTone skin = SkinTone::medium;
-  bool glove = false;   // a dark one; what it carries for an infra-red camera is in worn.hpp
-  double straight = 0;  // m that the arm goes on behind the elbow, for hands seen from afar
+  bool glove = false;  // a dark one; what it carries for an infra-red camera is in worn.hpp
   bool sleeve = false;
   Eigen::Vector3d sleeve_color{0.25, 0.32, 0.45};  // sRGB
   HandFrame frame = HandFrame::camera;
+  // In the script's frame, m: whence the arm comes, with an elbow between. Where there is none, and
+  // nobody wears the camera, the wrist is bent as the script says and the arm ends at the elbow.
+  std::optional<Eigen::Vector3d> shoulder;
+  double repeat = 0;          // s, after which the keys begin anew; 0: they do not
   std::vector<HandKey> keys;  // times strictly increasing; rests at the first before it, at the
                               // last after it
 };

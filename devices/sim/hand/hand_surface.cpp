@@ -20,6 +20,7 @@ constexpr float kShared = 0.007F;
 constexpr float kRigidArm = 0.05F;     // m behind the wrist, from where the arm is one bone
 constexpr float kSleeveHem = 0.07F;    // m behind the wrist
 constexpr float kSleeveGap = 0.0065F;  // m over the skin
+constexpr float kOffSkin = 0.3F * kSleeveGap;
 
 std::vector<float> steps(float from, float to, float step) {
   std::vector<float> planes;
@@ -91,8 +92,13 @@ struct HandSurface::Clothing {
     return std::max(arm, -p.y() - static_cast<float>(options.forearm));
   }
   bool sleeve(const Vector3f& p) const {
-    return options.sleeve && flesh.sample(p).distance > 0.3F * kSleeveGap &&
-           p.y() < -kSleeveHem + 0.002F;
+    // Whatever stands off the flesh is cloth, the hem's rim too, wherever the net has put it.
+    return options.sleeve && flesh.sample(p).distance > kOffSkin;
+  }
+  // Where skin ends at the cloth, within `reach` along the arm.
+  bool hem(const Vector3f& p, float reach) const {
+    return options.sleeve && std::abs(p.y() + kSleeveHem) < reach &&
+           flesh.sample(p).distance < kOffSkin + 0.5F * reach;
   }
 };
 
@@ -123,16 +129,6 @@ HandSurface::HandSurface(const HandAnatomy& anatomy, const HandSurfaceOptions& o
   bindings_.reserve(rest_.vertices.size());
   for (const Vector3f& vertex : rest_.vertices)
     bindings_.push_back(bound(vertex, lobes_, flesh, clothing));
-  if (options.straight > 0) straighten(options.straight);
-}
-
-// Draws the arm's rear half out.
-void HandSurface::straighten(double by) {
-  const float elbow = static_cast<float>(anatomy_.forearm_length);
-  for (Vector3f& vertex : rest_.vertices) {
-    const float share = std::clamp(-vertex.y() / elbow * 2 - 1, 0.0F, 1.0F);
-    vertex.y() -= share * share * static_cast<float>(by);
-  }
 }
 
 // Evens the net's vertices out along the surface and brings them onto it.
@@ -166,6 +162,9 @@ void HandSurface::settle(const Clothing& clothing) {
   // Nails are finer than the rest.
   const HandSkeleton skeleton = skeleton_of(anatomy_, rest_pose());
   rest_ = refined(rest_, [&](const Vector3f& p) { return near_nail(anatomy_, skeleton, p); });
+  // Each triangle there has corners of both colours: they must not be seen as teeth.
+  for (const float reach : {0.005F, 0.003F})
+    rest_ = refined(rest_, [&](const Vector3f& p) { return clothing.hem(p, reach); });
   rest_normals_.reserve(vertices.size());
   for (Vector3f& vertex : vertices) {
     vertex = onto_surface(vertex);

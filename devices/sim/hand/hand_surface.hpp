@@ -17,7 +17,6 @@ namespace armsreach::sim {
 struct HandSurfaceOptions {
   double forearm = 1;    // m of arm behind the wrist, cut off flat; the elbow is at about 0.3
   bool sleeve = false;   // over the arm from 7 cm behind the wrist on
-  double straight = 0;   // m that the arm goes on behind the elbow, straight
   double cell = 0.0035;  // m, about the length of a triangle's side
 };
 
@@ -59,7 +58,6 @@ class HandSurface {
   Binding bound(const Eigen::Vector3f& point, const std::vector<Lobe>& lobes,
                 const PosedFlesh& flesh, const Clothing& clothing);
   void settle(const Clothing& clothing);
-  void straighten(double by);
 
   HandAnatomy anatomy_;
   std::vector<Lobe> lobes_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace armsreach::sim {
 namespace {
@@ -35,6 +36,7 @@ void Raster::clear() {
   }
   corners_.clear();
   parts_.clear();
+  cut_.clear();
   triangles_ = 0;
   left_ = width_;
   top_ = height_;
@@ -42,11 +44,22 @@ void Raster::clear() {
 }
 
 void Raster::draw(const RasterSurface& surface) {
+  draw_before_near_plane(surface);
+  ClippedTriangles cut =
+      cut_at_near_plane(surface.positions, surface.colors, surface.triangles, kNearest);
+  if (cut.triangles.empty()) return;
+  const ClippedTriangles& kept = cut_.emplace_back(std::move(cut));
+  draw_before_near_plane(
+      {kept.positions, kept.colors, kept.triangles, surface.mirrored, surface.id});
+}
+
+// Triangles all of whose corners are.
+void Raster::draw_before_near_plane(const RasterSurface& surface) {
   const Part part{surface, corners_.size(), triangles_};
   const bool lens = camera_.has_distortion();
   for (const Vector3f& point : surface.positions) {
     Corner corner;
-    if (point.z() > kNearest) {
+    if (point.z() >= kNearest) {
       const auto pixel =
           lens ? project(camera_, point.cast<double>())
                : std::optional(Eigen::Vector2d(

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include <opencv2/core/mat.hpp>
 #include <opencv2/core/types.hpp>
 
+#include "devices/sim/hand/near_clip.hpp"
 #include "vision/core/camera.hpp"
 
 namespace armsreach::sim {
@@ -29,8 +31,8 @@ class Raster {
   const Camera& camera() const { return camera_; }
 
   void clear();
-  // Triangles that reach behind the near plane (2 cm) are left out. What spans point to must stay
-  // until the images have been read.
+  // Triangles are cut off at the near plane (2 cm). What spans point to must stay until the images
+  // have been read.
   void draw(const RasterSurface& surface);
 
   // Pixels that anything may cover.
@@ -66,6 +68,7 @@ class Raster {
     float depth;
   };
 
+  void draw_before_near_plane(const RasterSurface& surface);
   void draw_triangle(const std::array<Corner, 3>& corners, std::uint32_t number);
   const Part& part_of(std::uint32_t triangle) const;
   Shade shade(std::uint32_t triangle, float x, float y) const;
@@ -79,6 +82,7 @@ class Raster {
   std::vector<Sample> samples_;
   std::vector<Corner> corners_;
   std::vector<Part> parts_;
+  std::deque<ClippedTriangles> cut_;  // by the near plane; parts point to them
   std::uint32_t triangles_ = 0;
   int left_ = 0;  // touched samples: [left, right) x [top, bottom)
   int top_ = 0;

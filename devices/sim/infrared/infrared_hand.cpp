@@ -14,7 +14,7 @@ HandSurfaceOptions options_for(const HandDescription& hand) {
 
 InfraredHand::InfraredHand(const HandDescription& hand, const InfraredDescription& infrared,
                            const ThingPoses& world_from_thing)
-    : actor_(hand, world_from_thing),
+    : actor_(hand, {world_from_thing, {}}),
       surface_(actor_.anatomy(), options_for(hand)),
       bracelet_(infrared.bracelet),
       glove_(infrared.glove) {
@@ -30,9 +30,10 @@ InfraredHand::InfraredHand(const HandDescription& hand, const InfraredDescriptio
 
 InfraredHand::Moment InfraredHand::at(double time) const {
   Moment moment;
-  moment.world_from_hand = actor_.world_from_hand(time, Pose());
+  const HandMoment hand = actor_.at(time, Pose());
+  moment.world_from_hand = hand.world_from_hand;
   moment.truth = actor_.truth(time, Pose());
-  moment.skeleton = skeleton_of(actor_.anatomy(), actor_.pose(time));
+  moment.skeleton = skeleton_of(actor_.anatomy(), hand.pose);
   surface_.pose(moment.skeleton, moment.surface);
   if (bracelet_) wear(*bracelet_, moment.skeleton, moment.worn);
   if (glove_) wear(*glove_, surface_, moment.skeleton, moment.worn);

@@ -3,14 +3,18 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
+#include "devices/sim/hand/flesh.hpp"
 #include "devices/sim/hand/hand_actor.hpp"
 #include "devices/sim/sim_source.hpp"
 #include "devices/sim/worlds.hpp"
+#include "devices/truth.hpp"
 
 namespace armsreach::sim {
 namespace {
@@ -108,6 +112,84 @@ TEST(HandSource, TheSceneBehindIsNotWrittenTo) {
   EXPECT_EQ(covered((*before)->depth, 0, 1), 0);
 }
 
+TEST(HandSource, TheTruthKnowsTheHandOfARecording) {
+  const FramePtr frame = first_frame(2, 2);
+  ASSERT_TRUE(frame->truth);
+  ASSERT_EQ(frame->truth->hands.size(), 1U);
+  const TrueHand& hand = frame->truth->hands[0];
+  EXPECT_EQ(hand.name, "right hand");
+  EXPECT_EQ(hand.gesture, "open");
+  EXPECT_EQ(hand.mask, 1);
+  // The frame has no pose: joints are in the camera's frame.
+  EXPECT_NEAR(hand.world_from_joint[0].translation().z(), 0.5, 0.1);
+  EXPECT_TRUE(frame->truth->depth.empty()) << "a recording does not know it";
+}
+
+TEST(HandSource, PicturesDifferWhereTheMaskSaysHand) {
+  const std::string spec = "sim:bench,width=160,noise=none,color=clean,rate=2,frames=6";
+  const auto plain = *open_source(*parse_source_spec(spec), {}, sim_source_kinds());
+  const auto handed = *open_source(*parse_source_spec("sim-hand:" + spec), {}, sim_source_kinds());
+  int hand_pixels = 0;
+  int alike = 0;
+  while (const FramePtr without = *plain->next()) {
+    const FramePtr with = *handed->next();
+    ASSERT_EQ(with->truth->hands.size(), 1U);
+    const cv::Mat masked = with->truth->masks == with->truth->hands[0].mask;
+    cv::Mat near;  // Half covered rims have no mask, and the lens spreads a pixel.
+    cv::dilate(masked, near, cv::Mat::ones(5, 5, CV_8U));
+    for (int y = 0; y < masked.rows; ++y) {
+      for (int x = 0; x < masked.cols; ++x) {
+        const bool hand = masked.at<std::uint8_t>(y, x) != 0;
+        const bool differs = with->color.at<cv::Vec3b>(y, x) != without->color.at<cv::Vec3b>(y, x);
+        if (!near.at<std::uint8_t>(y, x)) {
+          EXPECT_FALSE(differs) << x << " " << y;
+          EXPECT_EQ(with->truth->masks.at<std::uint16_t>(y, x),
+                    without->truth->masks.at<std::uint16_t>(y, x));
+        }
+        if (!hand) continue;
+        ++hand_pixels;
+        alike += !differs;
+        EXPECT_LT(with->truth->depth.at<float>(y, x), without->truth->depth.at<float>(y, x));
+      }
+    }
+  }
+  EXPECT_GT(hand_pixels, 2000);
+  EXPECT_LT(alike, 0.01 * hand_pixels);
+}
+
+TEST(HandSource, ASecondRightHandHasANameAndAMaskOfItsOwn) {
+  auto inner = make_hand_source(std::make_unique<Wall>(2.0F, 2.0F, false), {open_hand()});
+  HandDescription beside = open_hand();
+  beside.keys[0].at = {-0.2, 0, 0.5};
+  const auto source = make_hand_source(std::move(inner), {beside});
+  const FramePtr frame = *source->next();
+  ASSERT_EQ(frame->truth->hands.size(), 2U);
+  EXPECT_EQ(frame->truth->hands[1].name, "right hand 2");
+  EXPECT_EQ(frame->truth->hands[1].mask, 2);
+  EXPECT_GT(cv::countNonZero(frame->truth->masks == 1), 500);
+  EXPECT_GT(cv::countNonZero(frame->truth->masks == 2), 500);
+}
+
+TEST(HandSource, NoiseIsOfTheSeedAndTheGimbalIsTheScenes) {
+  const auto color = [](const std::string& seed) {
+    const auto source =
+        *open_source(*parse_source_spec("sim-hand:sim:bench,width=64,frames=1,seed=" + seed), {},
+                     sim_source_kinds());
+    return (*source->next())->color.clone();
+  };
+  EXPECT_EQ(cv::norm(color("4"), color("4"), cv::NORM_INF), 0);
+  EXPECT_GT(cv::norm(color("4"), color("5"), cv::NORM_INF), 0);
+  const auto wall = [](std::uint64_t seed) {
+    const auto source =
+        make_hand_source(std::make_unique<Wall>(2.0F, 2.0F, false), {open_hand()}, seed);
+    return (*source->next())->color.clone();
+  };
+  EXPECT_GT(cv::norm(wall(4), wall(5), cv::NORM_INF), 0) << "what is behind has no noise";
+  const auto worn = *open_source(
+      *parse_source_spec("sim-hand:sim:kitchen-table,gimbal=yes,width=64"), {}, sim_source_kinds());
+  EXPECT_EQ(worn->actuators().size(), 1U);
+}
+
 TEST(HandSource, AHandInTheWorldNeedsAPose) {
   const auto source =
       make_hand_source(std::make_unique<Wall>(2, 2, false), {open_hand(HandFrame::world)});
@@ -130,8 +212,42 @@ TEST(HandSource, OpensBySpecificationWithTheOptionsOfBoth) {
   EXPECT_THAT(open("sim-hand:sim:bench,rate=30,colour=2").error().message(), HasSubstr("colour"));
 }
 
-// In a simulated world: exact depth, truth and drawing agree.
-TEST(HandsInAWorld, DepthIsThatOfTheTruthsJoints) {
+// Every pixel against rays that march through the flesh's distance field, which no mesh and no
+// raster has been near.
+class FleshRays {
+ public:
+  FleshRays(const HandDescription& hand, const Frame& frame)
+      : FleshRays(HandActor(hand), hand.left, *frame.world_from_camera) {}
+
+  // z at which a pixel's ray meets the hand.
+  std::optional<double> depth(const Eigen::Vector3d& ray) const {
+    const Eigen::Vector3d along = hand_from_camera_.rotation() * ray;
+    const Eigen::Vector3d eye = hand_from_camera_.translation();
+    const double length = ray.norm();
+    for (double z = 0.2; z < 0.9;) {
+      Eigen::Vector3d point = eye + z * along;
+      if (left_) point.x() = -point.x();
+      const double distance =
+          static_cast<double>(flesh_.sample(Eigen::Vector3f(point.cast<float>())).distance);
+      if (distance < 2e-4) return z;
+      z += 0.9 * distance / length;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  FleshRays(const HandActor& actor, bool left, const Pose& world_from_camera)
+      : hand_from_camera_(actor.world_from_hand(0, world_from_camera).inverse() *
+                          world_from_camera),
+        flesh_(flesh_of(actor.anatomy()), skeleton_of(actor.anatomy(), actor.pose(0))),
+        left_(left) {}
+
+  Pose hand_from_camera_;
+  PosedFlesh flesh_;
+  bool left_;
+};
+
+TEST(HandsInAWorld, DepthAndMasksAreWhatRaysThroughTheFleshMeet) {
   World world = *load_world("bench");
   world.sensor.width = 320;
   world.sensor.height = 240;
@@ -144,24 +260,37 @@ TEST(HandsInAWorld, DepthIsThatOfTheTruthsJoints) {
   world.hands = {open_hand(), left};
   world.hands[0].keys[0].at = {0.12, 0, 0.5};
   const auto source = make_sim_source(world, {});
-  const auto frame = source->next();
-  ASSERT_TRUE(frame.ok()) << frame.error().message();
-  for (const HandDescription& hand : world.hands) {
-    const HandTruth truth = HandActor(hand).truth(0, *(*frame)->world_from_camera);
-    for (const HandJoint joint : {HandJoint::index_distal, HandJoint::middle_intermediate,
-                                  HandJoint::ring_proximal, HandJoint::little_intermediate}) {
-      const Eigen::Vector3d in_camera =
-          (*frame)->world_from_camera->inverse() *
-          truth.world_from_joint[static_cast<std::size_t>(joint)].translation();
-      const auto pixel = project((*frame)->sensor->camera(), in_camera);
-      ASSERT_TRUE(pixel.has_value());
-      const double depth = static_cast<double>((*frame)->depth.at<float>(
-          static_cast<int>(std::lround(pixel->y())), static_cast<int>(std::lround(pixel->x()))));
-      // The skin is a finger's radius before the joint: 5 to 14 mm.
-      EXPECT_GT(in_camera.z() - depth, 0.004) << name(joint);
-      EXPECT_LT(in_camera.z() - depth, 0.016) << name(joint);
+  const FramePtr frame = *source->next();
+  const Truth& truth = *frame->truth;
+  int hand_pixels = 0;
+  int mistaken = 0;
+  for (std::size_t hand = 0; hand < 2; ++hand) {
+    const FleshRays rays(world.hands[hand], *frame);
+    // The arms end behind the elbow, where the picture has ended too.
+    for (int y = 1; y < 239; y += 2) {
+      for (int x = 1; x < 319; x += 2) {
+        const auto cast = [&](double dx, double dy) {
+          return rays.depth(unproject(frame->sensor->camera(), {x + dx, y + dy}));
+        };
+        const auto hit = cast(0, 0);
+        const bool edge = cast(-0.7, -0.7).has_value() != hit.has_value() ||
+                          cast(0.7, 0.7).has_value() != hit.has_value() ||
+                          cast(-0.7, 0.7).has_value() != hit.has_value() ||
+                          cast(0.7, -0.7).has_value() != hit.has_value();
+        if (edge) continue;
+        const bool masked = truth.masks.at<std::uint16_t>(y, x) == truth.hands[hand].mask;
+        mistaken += masked != hit.has_value();
+        if (!masked || !hit) continue;
+        ++hand_pixels;
+        // A net of 3.5 mm cells on fingers of 7 mm radius is up to 0.25 mm inside its chords, and
+        // flesh that melts adds as much; seen at a slant near the rims, more.
+        EXPECT_NEAR(static_cast<double>(truth.depth.at<float>(y, x)), *hit, 0.004);
+      }
     }
   }
+  EXPECT_GT(hand_pixels, 1500);
+  // Between fingers that nearly touch a ray may pass where the net closes.
+  EXPECT_LT(mistaken, 0.01 * hand_pixels);
 }
 
 TEST(HandsInAWorld, AreTheSameEveryTime) {

@@ -18,7 +18,7 @@ using testing::HasSubstr;
 const std::string kScript = R"(hands:
   - {side: left, frame: world, seed: 4, skin: dark, sleeve: "#336699", keys: [
       {t: 0, pose: 7, at: [1, 2, 3]},
-      {t: 1.5, pose: L, at: [0, 0, 1], turn_deg: [0, 90, 0], wrist_deg: [10, -5], hold: mug}]}
+      {t: 1.5, pose: L, at: [0, 0, 1], turn_deg: [0, 90, 0], wrist_deg: [10, -5]}], repeat: 2, shoulder: [3, 2, 1]}
 )";
 
 Result<std::vector<HandDescription>> read(const std::string& text) {
@@ -40,11 +40,11 @@ TEST(HandYaml, ReadsWhatIsThere) {
   ASSERT_EQ(hand.keys.size(), 2U);
   EXPECT_EQ(hand.keys[0].gesture, Gesture::seven);
   EXPECT_EQ(hand.keys[0].at, Eigen::Vector3d(1, 2, 3));
-  EXPECT_TRUE(hand.keys[0].hold.empty());
+  EXPECT_EQ(hand.repeat, 2);
+  EXPECT_EQ(hand.shoulder, Eigen::Vector3d(3, 2, 1));
   EXPECT_EQ(hand.keys[1].gesture, Gesture::L);
   EXPECT_DOUBLE_EQ(hand.keys[1].turn.y(), std::numbers::pi / 2);
   EXPECT_DOUBLE_EQ(hand.keys[1].wrist_deviation, -5 * std::numbers::pi / 180);
-  EXPECT_EQ(hand.keys[1].hold, "mug");
 }
 
 TEST(HandYaml, AGripIsAGraspAroundSomething) {
@@ -75,6 +75,9 @@ TEST(HandYaml, SaysWhatIsWrong) {
   EXPECT_THAT(read("hands: [").error().message(), HasSubstr("not readable"));
   EXPECT_THAT(complaint("pose: 7", "grip: 3"), HasSubstr("grip"));
   EXPECT_FALSE(read("").ok());
+  EXPECT_THAT(read("hands: []").error().message(), HasSubstr("'hands' is empty"));
+  EXPECT_THAT(complaint("repeat: 2", "repeat: 1"), HasSubstr("hands[0].repeat"));
+  EXPECT_THAT(complaint("wrist_deg: [10, -5]", "hold: teapot"), HasSubstr("need a world"));
 }
 
 TEST(HandYaml, TheScriptsThatComeWithTheProgramAreSound) {
@@ -84,10 +87,22 @@ TEST(HandYaml, TheScriptsThatComeWithTheProgramAreSound) {
   ASSERT_TRUE(hands.ok()) << hands.error().message();
   // Issue's list: points, L, open, fist, grasp.
   for (const Gesture gesture :
-       {Gesture::point, Gesture::L, Gesture::open, Gesture::fist, Gesture::grasp}) {
+       {Gesture::point, Gesture::L, Gesture::open, Gesture::fist, Gesture::grasp, Gesture::pinch}) {
     EXPECT_TRUE(std::any_of(hands->front().keys.begin(), hands->front().keys.end(),
                             [&](const HandKey& key) { return key.gesture == gesture; }))
         << name(gesture);
+  }
+}
+
+TEST(HandYaml, TheNumeralsAreAllTenOverAndOver) {
+  const auto hands = read(std::string(render::asset("hands/numerals.yaml")));
+  ASSERT_TRUE(hands.ok()) << hands.error().message();
+  EXPECT_GT(hands->front().repeat, 0);
+  for (int numeral = 0; numeral < 10; ++numeral) {
+    const auto gesture = gesture_named(std::to_string(numeral));
+    EXPECT_TRUE(std::any_of(hands->front().keys.begin(), hands->front().keys.end(),
+                            [&](const HandKey& key) { return key.gesture == gesture; }))
+        << numeral;
   }
 }
 
@@ -110,7 +125,7 @@ TEST(HandYaml, WhatMovesByItselfIsHeldOnIt) {
       read("hands: [{side: left, frame: world, keys: [{t: 0, pose: L, at: [0, 0, 0], on: a}]}]")
           .error()
           .message(),
-      HasSubstr("needs a world"));
+      HasSubstr("need a world"));
 }
 
 TEST(HandYaml, AWorldsHandsHoldThingsOfTheWorld) {

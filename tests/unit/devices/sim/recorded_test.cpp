@@ -57,9 +57,18 @@ void expect_same(const Truth& a, const Truth& b, double units_per_metre) {
   if (a.gimbal) {
     EXPECT_EQ(a.gimbal->angles, b.gimbal->angles);
   }
+  ASSERT_EQ(a.markers.size(), b.markers.size());
+  for (std::size_t i = 0; i < a.markers.size(); ++i) {
+    EXPECT_EQ(a.markers[i].name, b.markers[i].name);
+    EXPECT_EQ(a.markers[i].point_in_world, b.markers[i].point_in_world);
+    EXPECT_EQ(a.markers[i].visible, b.markers[i].visible);
+  }
   ASSERT_EQ(a.hands.size(), b.hands.size());
   for (std::size_t i = 0; i < a.hands.size(); ++i) {
+    EXPECT_EQ(a.hands[i].name, b.hands[i].name);
+    EXPECT_EQ(a.hands[i].mask, b.hands[i].mask);
     EXPECT_EQ(a.hands[i].gesture, b.hands[i].gesture);
+    EXPECT_EQ(a.hands[i].holds, b.hands[i].holds);
     for (std::size_t k = 0; k < kTrueHandJoints; ++k)
       expect_same(a.hands[i].world_from_joint[k], b.hands[i].world_from_joint[k]);
   }
@@ -109,6 +118,28 @@ TEST(Recorded, EqualsItsSource) {
               testing::HasSubstr("[0.3,-0.1,0.05]"));
   ASSERT_TRUE((*states)->command({0, {0, 0, 0}}).ok());
   EXPECT_EQ((*states)->take_events().size(), 1U) << "it says that it cannot be moved";
+}
+
+TEST(Recorded, KeepsMarkersAndHandsThatWereDrawnIn) {
+  for (const std::string spec : {"sim:haptic-table,width=64,speed=10,frames=3",
+                                 "sim-hand:sim:bench,width=64,speed=10,frames=3"}) {
+    const test::TemporaryFolder folder;
+    const auto first = open(spec);
+    TumWriter writer(folder / "made");
+    ASSERT_TRUE(writer.begin(*first->sensor()).ok());
+    std::vector<FramePtr> frames;
+    while (const FramePtr frame = *first->next()) {
+      frames.push_back(frame);
+      ASSERT_TRUE(writer.write(*frame).ok());
+    }
+    const auto played = open("tum:" + (folder / "made").string());
+    for (const FramePtr& frame : frames) {
+      const FramePtr again = *played->next();
+      ASSERT_TRUE(again && again->truth);
+      ASSERT_EQ(frame->truth->hands.size(), 1U);
+      expect_same(*frame->truth, *again->truth, first->sensor()->camera().depth_units_per_metre);
+    }
+  }
 }
 
 TEST(Recorded, ABrokenOffOneIsAShorterOne) {

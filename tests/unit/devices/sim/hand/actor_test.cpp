@@ -77,7 +77,7 @@ TEST(HandActor, OnAThingItKeepsItsGripWhereverTheThingGoes) {
   };
   for (const bool left : {false, true}) {
     hand.left = left;
-    const HandActor actor(hand, world_from_hammer);
+    const HandActor actor(hand, {world_from_hammer, {}});
     const auto hammer_from_hand = [&](double time) {
       return world_from_hammer("hammer", time).inverse() * actor.world_from_hand(time, {});
     };

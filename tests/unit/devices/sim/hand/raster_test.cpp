@@ -80,18 +80,47 @@ TEST(Raster, CoverageIsTheCoveredShare) {
   EXPECT_EQ(coverage(40), 127);
 }
 
-TEST(Raster, BacksAndWhatReachesBehindTheCameraAreLeftOut) {
-  Card card(-0.1F, -0.1F, 0.1F, 0.1F, 0.5F, {1, 1, 1});
+TEST(Raster, BacksAreLeftOut) {
+  const Card card(-0.1F, -0.1F, 0.1F, 0.1F, 0.5F, {1, 1, 1});
   Raster raster(kCamera);
   RasterSurface back = card.surface(1);
   back.mirrored = true;
   raster.draw(back);
   EXPECT_TRUE(raster.touched().empty());
-  card.corners[0].z() = -0.1F;
+}
+
+// A floor 10 cm below the camera, from 1 m behind it to 1 m before it, far wider than the picture:
+// it fills every row below that of its far end, to the lower edge, each pixel at its depth.
+TEST(Raster, WhatReachesBehindTheCameraIsCutOffAtTheNearPlane) {
+  const std::vector<Vector3f> corners{{-9, 0.1F, -1}, {-9, 0.1F, 1}, {9, 0.1F, 1}, {9, 0.1F, -1}};
+  const std::vector<Vector3f> colors(4, {50, 100, 150});
+  for (const bool mirrored : {false, true}) {
+    std::vector<Triangle> triangles{{0, 2, 1}, {0, 3, 2}};
+    if (mirrored) triangles = {{0, 1, 2}, {0, 2, 3}};
+    Raster raster(kCamera);
+    raster.draw({corners, colors, triangles, mirrored, 3});
+    const Raster::Images images = raster.images();
+    ASSERT_EQ(images.place.br(), cv::Point(64, 48));
+    for (int y = 30; y < 48; ++y) {
+      for (int x = 0; x < 64; ++x) {
+        const cv::Point at(x - images.place.x, y - images.place.y);
+        ASSERT_EQ(images.ids.at<std::uint8_t>(at), 3) << x << " " << y;
+        EXPECT_EQ(images.color.at<cv::Vec3b>(at), cv::Vec3b(50, 100, 150));
+        const double depth = 0.1 / unproject(kCamera, Eigen::Vector2d(x, y)).y();
+        // Single precision over a triangle of 18 m.
+        EXPECT_NEAR(static_cast<double>(images.depth.at<float>(at)), depth, 0.002);
+      }
+    }
+    raster.clear();
+    EXPECT_EQ(cv::countNonZero(raster.ids()), 0);
+  }
+}
+
+TEST(Raster, WhatIsBehindTheCameraIsNotDrawn) {
+  const Card card(-0.1F, -0.1F, 0.1F, 0.1F, -0.5F, {1, 1, 1});
+  Raster raster(kCamera);
   raster.draw(card.surface(1));
-  EXPECT_EQ(cv::countNonZero(raster.ids() == 0), 64 * 48 - cv::countNonZero(raster.ids()));
-  raster.clear();
-  EXPECT_EQ(cv::countNonZero(raster.ids()), 0);
+  EXPECT_TRUE(raster.touched().empty());
 }
 
 TEST(Raster, BendsWithTheLens) {
