@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "vision/gesture/cast_shadow.hpp"
 #include "vision/gesture/hand_separation.hpp"
 
 namespace armsreach::gesture {
@@ -70,9 +71,10 @@ double fine_angle(const RingMatcher& matcher, const HandShape& shape, const Ring
 
 std::vector<HandBlob> find_hands(const HandFinder& finder, const cv::Mat& skin,
                                  const cv::Mat& bgr) {
-  auto blobs = finder.find(skin);
+  const cv::Mat lit = without_shadow(bgr, skin);
+  auto blobs = finder.find(lit);
   if (blobs.empty() || blobs[0].plausible) return blobs;
-  auto parted = finder.find(without_walls(bgr, skin));
+  auto parted = finder.find(without_walls(bgr, lit));
   const double least = finder.options().least_area_alone * static_cast<double>(skin.total());
   const bool better = !parted.empty() && parted[0].plausible && parted[0].readings[0].area >= least;
   return better ? parted : blobs;

@@ -36,7 +36,8 @@ GestureTemplate template_of(const std::string& gesture, const HandShape& shape,
 // a degree.
 double fine_angle(const RingMatcher& matcher, const HandShape& shape, const RingMatch& match);
 
-// The blobs of a mask, parted from walls by `bgr` where the largest is no hand.
+// The blobs of a mask, without the shadow of the hand and, where the largest is no hand, parted from
+// walls, both by `bgr`.
 std::vector<HandBlob> find_hands(const HandFinder& finder, const cv::Mat& skin, const cv::Mat& bgr);
 
 class GestureDetector {
