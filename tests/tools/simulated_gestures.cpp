@@ -69,8 +69,9 @@ HandPose fist_thumb_aside(const HandAnatomy& anatomy, Random& random) {
 }
 // Index and thumb around something small, open or closed on it; the other fingers are folded.
 HandPose grasp_index_arched(const HandAnatomy& anatomy, Random& random) {
-  const HandPose pose = curled(usual<Gesture::grasp>(anatomy, random), Finger::index,
-                               random.uniform(0, 45), random.uniform(30, 70), random.uniform(10, 40));
+  const HandPose pose =
+      curled(usual<Gesture::grasp>(anatomy, random), Finger::index, random.uniform(0, 45),
+             random.uniform(30, 70), random.uniform(10, 40));
   return with(pose, {{thumb_radial, random.uniform(30, 60)},
                      {thumb_palmar, random.uniform(15, 50)},
                      {thumb_mcp, random.uniform(-5, 15)},

@@ -11,7 +11,7 @@ namespace {
 constexpr int kLevels = 64;
 constexpr int kRowStep = 2;
 constexpr int kLevelWidth = 256 / kLevels;
-constexpr double kDarkness = 0.55;   // of the bright part's mean, the dark part's at most
+constexpr double kDarkness = 0.55;  // of the bright part's mean, the dark part's at most
 constexpr double kParted = 0.65;    // of the variance that lies between the two parts, at least
 constexpr double kMostShare = 0.5;  // of the skin
 
