@@ -69,17 +69,10 @@ struct Scores {
 
 struct Evaluation {
   int pictures = 0, right = 0, wrong = 0, silent = 0;
-  int first_right = 0;  // the best gesture, announced or not
+  int first_right = 0;  // the likeliest gesture, announced or not
   Confusion confusion;
   std::vector<Scores> over_k;
 };
-
-std::string best_of(const gesture::HandObservation& hand) {
-  const auto best =
-      std::max_element(hand.scores.begin(), hand.scores.end(),
-                       [](const auto& a, const auto& b) { return a.second < b.second; });
-  return best == hand.scores.end() ? "" : best->first;
-}
 
 // What is said of a picture's hands: the announced one's, else the largest's.
 const gesture::HandObservation* spoken_for(const gesture::HandObservations& hands) {
@@ -93,7 +86,7 @@ void judge(const gesture::HandObservation* hand, const std::string& truth, Evalu
   ++sum->pictures;
   ++sum->confusion[truth][said];
   ++(said.empty() ? sum->silent : said == truth ? sum->right : sum->wrong);
-  sum->first_right += hand != nullptr && best_of(*hand) == truth ? 1 : 0;
+  sum->first_right += hand != nullptr && hand->likeliest == truth ? 1 : 0;
 }
 
 void score(const gesture::HandObservation* hand, const std::string& truth, Scores* scores) {

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <utility>
 
+#include "devices/sim/hand/contact.hpp"
 #include "devices/sim/hand/gesture.hpp"
 #include "devices/sim/hand/silhouette.hpp"
 #include "devices/sim/random.hpp"
@@ -66,6 +67,30 @@ HandPose fist_thumb_aside(const HandAnatomy& anatomy, Random& random) {
                                                       {thumb_mcp, 5},
                                                       {thumb_ip, 5}});
 }
+// Index and thumb around something small, open or closed on it; the other fingers are folded.
+HandPose grasp_index_arched(const HandAnatomy& anatomy, Random& random) {
+  const HandPose pose =
+      curled(usual<Gesture::grasp>(anatomy, random), Finger::index, random.uniform(0, 45),
+             random.uniform(30, 70), random.uniform(10, 40));
+  return with(pose, {{thumb_radial, random.uniform(30, 60)},
+                     {thumb_palmar, random.uniform(15, 50)},
+                     {thumb_mcp, random.uniform(-5, 15)},
+                     {thumb_ip, random.uniform(-10, 20)}});
+}
+// Index and thumb meet before the folded fingers, as on a key or a pen.
+HandPose grasp_index_on_thumb(const HandAnatomy& anatomy, Random& random) {
+  HandPose pose = curled(usual<Gesture::fist>(anatomy, random), Finger::index,
+                         random.uniform(45, 85), random.uniform(10, 45), random.uniform(5, 20));
+  const double middle = random.uniform(60, 80);
+  pose = curled(pose, Finger::middle, middle, random.uniform(60, 95), 35);
+  pose = with(pose, {{thumb_radial, random.uniform(25, 40)},
+                     {thumb_palmar, random.uniform(40, 55)},
+                     {thumb_mcp, 10},
+                     {thumb_ip, 10}});
+  const Contact tips[]{
+      {{Finger::thumb, 2, 0.7, {0, 0.15, 1}}, {Finger::index, 3, 0.7, {0, 0.15, 1}}}};
+  return touching(anatomy, pose, tips);
+}
 // Around something the size of a glass.
 HandPose grasp_round(const HandAnatomy& anatomy, Random& random) {
   const HandPose open = closed_up(usual<Gesture::open>(anatomy, random), 0);
@@ -102,8 +127,14 @@ constexpr Manner kWearable[] = {{"point", usual<Gesture::point>, -40, 40},
                                 {"open", open_fingers_together, -40, 40},
                                 {"open", open_fingers_together, -60, 60},
                                 {"fist", usual<Gesture::fist>, -30, 30},
+                                {"fist", usual<Gesture::fist>, -45, 45},
+                                {"fist", fist_thumb_aside, -40, 40},
                                 {"fist", fist_thumb_aside, -25, 25},
                                 {"grasp", usual<Gesture::grasp>, -20, 70},
+                                {"grasp", grasp_index_arched, 20, 75},
+                                {"grasp", grasp_index_arched, 20, 75},
+                                {"grasp", grasp_index_on_thumb, 25, 70},
+                                {"grasp", grasp_index_on_thumb, 40, 90},
                                 {"grasp", usual<Gesture::zero>, 40, 90},
                                 {"grasp", grasp_round, 30, 90},
                                 {"grasp", grasp_flat, 50, 110},

@@ -6,20 +6,24 @@
 #include <numbers>
 #include <utility>
 
+#include <opencv2/imgproc.hpp>
+
+#include "vision/gesture/cast_shadow.hpp"
+#include "vision/gesture/hand_evidence.hpp"
 #include "vision/gesture/hand_separation.hpp"
 
 namespace armsreach::gesture {
 namespace {
 
-// The two best of the matches, by g; the second may be missing.
+// The two likeliest of the matches; the second may be missing.
 std::pair<const RingMatch*, const RingMatch*> best_two(const std::vector<RingMatch>& matches) {
   const RingMatch* first = nullptr;
   const RingMatch* second = nullptr;
   for (const RingMatch& match : matches) {
-    if (first == nullptr || match.g > first->g) {
+    if (first == nullptr || match.likeness > first->likeness) {
       second = first;
       first = &match;
-    } else if (second == nullptr || match.g > second->g) {
+    } else if (second == nullptr || match.likeness > second->likeness) {
       second = &match;
     }
   }
@@ -33,6 +37,20 @@ Eigen::Vector2d farthest_along(const std::vector<cv::Point>& outline, const Eige
     if (at.dot(axis) > tip.dot(axis)) tip = at;
   }
   return tip;
+}
+
+double contact_of(const HandBlob& blob) {
+  return blob.contact / std::sqrt(std::max(1.0, cv::contourArea(blob.outline)));
+}
+
+// Of the skin in an image, what is neither this blob nor another hand on its arm.
+double clutter_around(std::size_t index, const std::vector<HandBlob>& blobs, const cv::Mat& skin) {
+  double hands = 0;
+  for (std::size_t i = 0; i < blobs.size(); ++i) {
+    const bool other_hand = blobs[i].plausible && blobs[i].readings[0].to_arm.has_value();
+    if (i == index || other_hand) hands += cv::contourArea(blobs[i].outline);
+  }
+  return std::max(0.0, 1 - hands / std::max(1, cv::countNonZero(skin)));
 }
 
 // Sampling at eight angles within a step averages out which side of a pixel's edge samples fall on.
@@ -70,9 +88,10 @@ double fine_angle(const RingMatcher& matcher, const HandShape& shape, const Ring
 
 std::vector<HandBlob> find_hands(const HandFinder& finder, const cv::Mat& skin,
                                  const cv::Mat& bgr) {
-  auto blobs = finder.find(skin);
+  const cv::Mat lit = without_shadow(bgr, skin);
+  auto blobs = finder.find(lit);
   if (blobs.empty() || blobs[0].plausible) return blobs;
-  auto parted = finder.find(without_walls(bgr, skin));
+  auto parted = finder.find(without_walls(bgr, lit));
   const double least = finder.options().least_area_alone * static_cast<double>(skin.total());
   const bool better = !parted.empty() && parted[0].plausible && parted[0].readings[0].area >= least;
   return better ? parted : blobs;
@@ -81,7 +100,7 @@ std::vector<HandBlob> find_hands(const HandFinder& finder, const cv::Mat& skin,
 GestureDetector::GestureDetector(TemplateSet set, const GestureDetectorOptions& options)
     : options_(options), finder_(options.hands), matcher_(std::move(set)) {}
 
-HandObservation GestureDetector::observe(const HandBlob& blob) const {
+HandObservation GestureDetector::observe(const HandBlob& blob, double clutter) const {
   const HandShape* shape = &blob.readings[0];
   std::vector<RingMatch> matches;
   for (const HandShape& reading : blob.readings) {
@@ -89,7 +108,7 @@ HandObservation GestureDetector::observe(const HandBlob& blob) const {
                                 straight_angle(reading));
     const RingMatch* best = best_two(these).first;
     if (best == nullptr) break;
-    if (!matches.empty() && best->g <= best_two(matches).first->g) continue;
+    if (!matches.empty() && best->likeness <= best_two(matches).first->likeness) continue;
     matches = std::move(these);
     shape = &reading;
   }
@@ -101,31 +120,35 @@ HandObservation GestureDetector::observe(const HandBlob& blob) const {
     seen.scores[matcher_.gestures()[i]] = matches[i].g;
   const auto [best, second] = best_two(matches);
   if (best != nullptr) {
+    seen.likeliest = matcher_.gestures()[static_cast<std::size_t>(best - matches.data())];
     seen.score = best->g;
     seen.angle = fine_angle(matcher_, *shape, *best);
-    const double margin = second == nullptr ? 1 : best->g - second->g;
-    if (blob.plausible && best->g >= options_.least_score && margin >= options_.least_margin)
-      seen.gesture = matcher_.gestures()[static_cast<std::size_t>(best - matches.data())];
+    const double margin = second == nullptr ? 1 : best->likeness - second->likeness;
+    const double odds = log_odds({best->likeness, margin, contact_of(blob), clutter});
+    if (blob.plausible && best->g >= options_.least_score && margin >= options_.least_margin &&
+        odds >= options_.least_log_odds)
+      seen.gesture = seen.likeliest;
   }
   seen.fingertip = farthest_along(blob.outline, {std::sin(seen.angle), -std::cos(seen.angle)});
   return seen;
 }
 
-HandObservations GestureDetector::observe_all(const std::vector<HandBlob>& blobs) const {
+HandObservations GestureDetector::observe_all(const std::vector<HandBlob>& blobs,
+                                              const cv::Mat& skin) const {
   HandObservations hands;
-  for (const HandBlob& blob : blobs) {
-    hands.push_back(observe(blob));
-    hands.back().hand = static_cast<int>(hands.size()) - 1;
+  for (std::size_t i = 0; i < blobs.size(); ++i) {
+    hands.push_back(observe(blobs[i], clutter_around(i, blobs, skin)));
+    hands.back().hand = static_cast<int>(i);
   }
   return hands;
 }
 
 HandObservations GestureDetector::detect(const cv::Mat& skin) const {
-  return observe_all(finder_.find(skin));
+  return observe_all(finder_.find(skin), skin);
 }
 
 HandObservations GestureDetector::detect(const cv::Mat& skin, const cv::Mat& bgr) const {
-  return observe_all(find_hands(finder_, skin, bgr));
+  return observe_all(find_hands(finder_, skin, bgr), skin);
 }
 
 }  // namespace armsreach::gesture

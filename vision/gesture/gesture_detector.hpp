@@ -16,9 +16,9 @@ namespace armsreach::gesture {
 struct GestureDetectorOptions {
   HandFinderOptions hands;
   Hands templates = Hands::both;
-  // g of a gesture that is told. (The paper's tau is 0.7; with these rings cupboards reach 0.9.)
-  double least_score = 0.9;
-  double least_margin = 0.01;  // by which it exceeds every other gesture's
+  double least_score = 0.8;     // g of a gesture that is told; see also hand_evidence.hpp
+  double least_margin = 0.003;  // by which its likeness exceeds every other gesture's
+  double least_log_odds = 0;    // more of them: fewer told wrongly, fewer told
 };
 
 // How far a hand that is straight on its forearm is turned from upright, rad clockwise; nothing
@@ -36,7 +36,8 @@ GestureTemplate template_of(const std::string& gesture, const HandShape& shape,
 // a degree.
 double fine_angle(const RingMatcher& matcher, const HandShape& shape, const RingMatch& match);
 
-// The blobs of a mask, parted from walls by `bgr` where the largest is no hand.
+// The blobs of a mask, without the shadow of the hand and, where the largest is no hand, parted
+// from walls, both by `bgr`.
 std::vector<HandBlob> find_hands(const HandFinder& finder, const cv::Mat& skin, const cv::Mat& bgr);
 
 class GestureDetector {
@@ -51,8 +52,9 @@ class GestureDetector {
   HandObservations detect(const cv::Mat& skin, const cv::Mat& bgr) const;
 
  private:
-  HandObservation observe(const HandBlob& blob) const;
-  HandObservations observe_all(const std::vector<HandBlob>& blobs) const;
+  // `clutter`: see HandEvidence.
+  HandObservation observe(const HandBlob& blob, double clutter) const;
+  HandObservations observe_all(const std::vector<HandBlob>& blobs, const cv::Mat& skin) const;
 
   GestureDetectorOptions options_;
   HandFinder finder_;

@@ -15,7 +15,8 @@ namespace armsreach::gesture {
 struct HandObservation {
   int hand = 0;                          // within its image, the largest first
   std::optional<std::string> gesture;    // nothing where no gesture can be told
-  double score = 0;                      // g of the best template, -1..1
+  std::string likeliest;                 // told or not; empty without templates
+  double score = 0;                      // g of the likeliest gesture's best template, -1..1
   std::map<std::string, double> scores;  // g of the best template of each gesture
   // Of the hand in the image against its template: rad, 0 upright (fingers up), clockwise positive.
   double angle = 0;

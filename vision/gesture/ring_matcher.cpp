@@ -78,39 +78,41 @@ RingMatcher::Shifts RingMatcher::shifts_around(double angle) const {
   return {first < 0 ? first + set_.layout.samples : first, 2 * reach + 1};
 }
 
-void RingMatcher::search(const RingSignature& seen, bool mirrored, const Shifts& upright,
-                         std::vector<Best>* best) const {
+RingMatcher::Look RingMatcher::look_at(const RingSignature& seen, bool mirrored,
+                                       const std::optional<double>& straight) const {
+  Look look{turned(seen), 0, straight ? shifts_around(*straight) : all_shifts(), mirrored};
+  look.change = change_with_one_step(look.twice, seen);
+  return look;
+}
+
+void RingMatcher::search(const Look& look, int index, std::uint32_t bound, Place* best) const {
   const int samples = set_.layout.samples;
-  const TurnedSignature twice = turned(seen);
-  const std::uint32_t change = change_with_one_step(twice, seen);
+  const GestureTemplate& one = set_.templates[static_cast<std::size_t>(index)];
+  const Shifts shifts = one.upright ? look.upright : all_shifts();
   std::array<std::uint32_t, kMostSamples> distances;
-  for (std::size_t i = 0; i < gesture_of_.size(); ++i) {
-    const GestureTemplate& one = set_.templates[i];
-    const Shifts shifts = one.upright ? upright : all_shifts();
-    Best& so_far = (*best)[static_cast<std::size_t>(gesture_of_[i])];
-    const auto look = [&](int shift, std::uint32_t distance) {
-      if (distance < so_far.distance) so_far = {distance, static_cast<int>(i), shift, mirrored};
-    };
-    // Every third shift, in the middle of its three; two runs where they pass the full turn.
-    int done = 0;
-    const int coarse = (shifts.count + 2) / 3;
-    while (done < coarse) {
-      const int first = (shifts.first + 1 + kCoarse * done) % samples;
-      const int run = std::min(coarse - done, (samples - first + kCoarse - 1) / kCoarse);
-      kernels_.mismatches(twice, bytes_of(one.signature), first, kCoarse, run,
-                          distances.data() + done);
-      done += run;
-    }
-    for (int j = 0; j < coarse; ++j)
-      look((shifts.first + 1 + kCoarse * j) % samples, distances[static_cast<std::size_t>(j)]);
-    for (int j = 0; j < coarse; ++j) {
-      if (distances[static_cast<std::size_t>(j)] >= so_far.distance + change) continue;
-      for (const int beside : {0, 2}) {
-        const int shift = (shifts.first + kCoarse * j + beside) % samples;
-        std::uint32_t distance = 0;
-        kernels_.mismatches(twice, bytes_of(one.signature), shift, 1, 1, &distance);
-        look(shift, distance);
-      }
+  const auto take = [&](int shift, std::uint32_t distance) {
+    if (distance < best->distance) *best = {distance, index, shift, look.mirrored};
+  };
+  // Every third shift, in the middle of its three; two runs where they pass the full turn.
+  int done = 0;
+  const int coarse = (shifts.count + 2) / 3;
+  while (done < coarse) {
+    const int first = (shifts.first + 1 + kCoarse * done) % samples;
+    const int run = std::min(coarse - done, (samples - first + kCoarse - 1) / kCoarse);
+    kernels_.mismatches(look.twice, bytes_of(one.signature), first, kCoarse, run,
+                        distances.data() + done);
+    done += run;
+  }
+  for (int j = 0; j < coarse; ++j)
+    take((shifts.first + 1 + kCoarse * j) % samples, distances[static_cast<std::size_t>(j)]);
+  for (int j = 0; j < coarse; ++j) {
+    const std::uint32_t least = std::min(bound, best->distance);
+    if (distances[static_cast<std::size_t>(j)] >= std::uint64_t{least} + look.change) continue;
+    for (const int beside : {0, 2}) {
+      const int shift = (shifts.first + kCoarse * j + beside) % samples;
+      std::uint32_t distance = 0;
+      kernels_.mismatches(look.twice, bytes_of(one.signature), shift, 1, 1, &distance);
+      take(shift, distance);
     }
   }
 }
@@ -141,20 +143,45 @@ double RingMatcher::angle_of(const RingSignature& seen, const RingMatch& best) c
   return std::remainder(best.mirrored ? -angle : angle, 2 * std::numbers::pi);
 }
 
+RingMatch RingMatcher::match_of(const Nearest& nearest) const {
+  const auto g = [&](const Place& place) {
+    return 1 - 2.0 * place.distance / set_.layout.total_weight();
+  };
+  double sum = 0;
+  int count = 0;
+  for (const Place& place : nearest) {
+    if (place.index < 0) break;
+    sum += g(place);
+    ++count;
+  }
+  const Place& best = nearest[0];
+  const double turn = std::remainder(best.shift * set_.layout.step(), 2 * std::numbers::pi);
+  return {best.index, best.shift,  best.mirrored,
+          g(best),    sum / count, best.mirrored ? -turn : turn};
+}
+
 std::vector<RingMatch> RingMatcher::match(const RingSignature& seen, Hands hands,
                                           const std::optional<double>& straight) const {
-  std::vector<Best> best(gestures_.size());
-  search(seen, false, straight ? shifts_around(*straight) : all_shifts(), &best);
-  const RingSignature mirror = mirrored(seen, set_.layout);
-  if (hands == Hands::both)
-    search(mirror, true, straight ? shifts_around(-*straight) : all_shifts(), &best);
-  std::vector<RingMatch> matches;
-  for (const Best& one : best) {
-    const double g = 1 - 2.0 * one.distance / set_.layout.total_weight();
-    const double turn = std::remainder(one.shift * set_.layout.step(), 2 * std::numbers::pi);
-    const double angle = one.mirrored ? -turn : turn;
-    matches.push_back({one.index, one.shift, one.mirrored, g, angle});
+  std::vector<Look> looks{look_at(seen, false, straight)};
+  if (hands == Hands::both) {
+    const auto mirrored_straight = straight ? std::optional(-*straight) : std::nullopt;
+    looks.push_back(look_at(mirrored(seen, set_.layout), true, mirrored_straight));
   }
+  std::vector<Nearest> nearest(gestures_.size());
+  for (std::size_t i = 0; i < gesture_of_.size(); ++i) {
+    Nearest& so_far = nearest[static_cast<std::size_t>(gesture_of_[i])];
+    Place place;
+    for (const Look& look : looks)
+      search(look, static_cast<int>(i), so_far.back().distance, &place);
+    if (place.distance >= so_far.back().distance) continue;
+    const auto at = std::find_if(so_far.begin(), so_far.end(), [&](const Place& other) {
+      return place.distance < other.distance;
+    });
+    std::move_backward(at, so_far.end() - 1, so_far.end());
+    *at = place;
+  }
+  std::vector<RingMatch> matches;
+  for (const Nearest& one : nearest) matches.push_back(match_of(one));
   return matches;
 }
 

@@ -6,6 +6,7 @@
 // triangle inequality. So every third turn is enough for all but the nearest templates.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -23,6 +24,9 @@ struct RingMatch {
   int shift = 0;          // what is seen at angle i + shift is the template's at angle i
   bool mirrored = false;  // in the mirror image of what is seen
   double g = -1;
+  // Mean g of the gesture's five nearest templates, or of all where it has fewer: steadier than the
+  // nearest alone where a bank holds many people.
+  double likeness = -1;
   double angle = 0;  // rad, clockwise, to whole steps; of the hand, not of its mirror image
 };
 
@@ -42,23 +46,35 @@ class RingMatcher {
   double angle_of(const RingSignature& seen, const RingMatch& match) const;
 
  private:
-  struct Best {
+  static constexpr std::size_t kNeighbours = 5;
+  struct Place {  // a template at its best turn
     std::uint32_t distance = UINT32_MAX;
     int index = -1;
     int shift = 0;
     bool mirrored = false;
   };
-  TurnedSignature turned(const RingSignature& seen) const;
-  std::uint32_t change_with_one_step(const TurnedSignature& seen, const RingSignature& same) const;
-  // Shifts first, first + 1, ... first + count - 1; may begin below zero.
+  using Nearest = std::array<Place, kNeighbours>;  // by distance
+  // Shifts first, first + 1, ... first + count - 1.
   struct Shifts {
     int first = 0;
     int count = 0;
   };
+  // What is seen or its mirror image, and how far it may be turned against upright templates.
+  struct Look {
+    TurnedSignature twice;
+    std::uint32_t change;  // with one step
+    Shifts upright;
+    bool mirrored;
+  };
+  TurnedSignature turned(const RingSignature& seen) const;
+  std::uint32_t change_with_one_step(const TurnedSignature& seen, const RingSignature& same) const;
   Shifts all_shifts() const { return {0, set_.layout.samples}; }
   Shifts shifts_around(double angle) const;
-  void search(const RingSignature& seen, bool mirrored, const Shifts& upright,
-              std::vector<Best>* best) const;
+  Look look_at(const RingSignature& seen, bool mirrored,
+               const std::optional<double>& straight) const;
+  // Improves `best` by the template's turns in this look; exact where it is below `bound`.
+  void search(const Look& look, int index, std::uint32_t bound, Place* best) const;
+  RingMatch match_of(const Nearest& nearest) const;
 
   TemplateSet set_;
   RingKernels kernels_;

@@ -10,11 +10,11 @@ namespace {
 
 // In units of the palm's radius.
 constexpr double kShortestArm = 1.6;  // to its end; a wrist is about 1.5 from the palm's middle
-constexpr double kWrist = 1.25;       // where the hand is cut
+constexpr double kWrist = 1.45;       // where the hand is cut
 constexpr double kAxisFrom = 1.0;     // the forearm's part that gives its direction
 constexpr double kAxisTo = 2.8;
 
-constexpr float kPalmShare = 0.65F;  // of a blob's greatest breadth that a palm has at least
+constexpr float kPalmShare = 0.75F;  // of a blob's greatest breadth that a palm has at least
 
 Palm broadest(const cv::Mat& distance, const cv::Rect& within) {
   double radius = 0;
