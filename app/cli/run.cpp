@@ -145,8 +145,9 @@ Status run(const RunOptions& options, const Config& config) {
   if (!rig) return rig.error();
   const SensorInfoPtr sensor = (*rig)->sensors()[main_sensor(**rig)].source->sensor();
 
-  const bool workspace =
-      options.experience.empty() ? sensor->depth_camera || world->map : wants(options, "workspace");
+  const bool workspace = options.experience.empty()
+                             ? sensor->depth_camera || world->map || !options.map.empty()
+                             : wants(options, "workspace");
   const bool wearable = options.experience.empty() ? !workspace : wants(options, "wearable");
   if (auto status = check_experience(options, workspace); !status) return status;
 
