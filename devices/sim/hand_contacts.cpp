@@ -50,11 +50,12 @@ HandContactFinder::HandContactFinder(const World& world)
     Body& body = bodies_[static_cast<std::size_t>(part.thing)];
     body.parts.push_back(static_cast<int>(i));
     for (const Patch& patch : patches_of(part.shape)) {
-      constexpr int kSteps = 16;
-      for (int row = 0; row <= kSteps; ++row) {
-        for (int column = 0; column <= kSteps; ++column) {
-          body.box.extend(part.thing_from_part *
-                          patch.at(column / double{kSteps}, row / double{kSteps}).position);
+      const int steps = patch.triangle ? 1 : 16;
+      for (int row = 0; row <= steps; ++row) {
+        for (int column = 0; column <= steps; ++column) {
+          const double u = static_cast<double>(column) / steps;
+          const double v = static_cast<double>(row) / steps;
+          body.box.extend(part.thing_from_part * patch.at(u, v).position);
         }
       }
     }

@@ -19,11 +19,7 @@ constexpr std::array kPatterns{
     PatternName{"landscape", Pattern::landscape, 6}, PatternName{"book", Pattern::book, 3},
     PatternName{"shapes", Pattern::shapes, 5},       PatternName{"leaves", Pattern::leaves, 5}};
 
-}  // namespace
-
-Material material_from(const std::string& name, YamlMap map) {
-  Material material;
-  material.name = name;
+void add_pattern(YamlMap& map, Material& material) {
   const std::string pattern = map.text("pattern");
   const auto known = std::find_if(kPatterns.begin(), kPatterns.end(),
                                   [&](const PatternName& p) { return pattern == p.name; });
@@ -35,6 +31,19 @@ Material material_from(const std::string& name, YamlMap map) {
   if (material.colors.size() < known->colors)
     throw Complaint{"'" + map.path("colors") + "' has fewer than the " +
                     std::to_string(known->colors) + " that '" + pattern + "' needs"};
+}
+
+}  // namespace
+
+Material material_from(const std::string& name, YamlMap map) {
+  Material material;
+  material.name = name;
+  if (map.find("texture")) {
+    material.pattern = Pattern::texture;
+    material.texture = map.text("texture");
+  } else {
+    add_pattern(map, material);
+  }
   material.fit = map.flag("fit");
   material.size = material.fit ? 1 : map.number("size", 0.001, 100);
   material.shine = map.number("shine", 0, 1, 0);

@@ -243,6 +243,35 @@ std::vector<Patch> patches(const Mug& mug) {
   return made;
 }
 
+// On the unit square's half below the diagonal; what is above it falls onto the diagonal.
+Patch patch_of(const std::shared_ptr<const std::vector<MeshTriangle>>& mesh,
+               const MeshTriangle& triangle) {
+  Patch patch;
+  patch.at = [mesh, &triangle](double u, double v) {
+    if (v > u) u = v = (u + v) / 2;
+    const Vector3d shares(1 - u, u - v, v);
+    SurfacePoint point{Vector3d::Zero(), Vector3d::Zero()};
+    for (std::size_t i = 0; i < 3; ++i) {
+      point.position += shares[static_cast<Eigen::Index>(i)] * triangle.positions[i];
+      point.normal += shares[static_cast<Eigen::Index>(i)] * triangle.normals[i];
+    }
+    point.normal.normalize();
+    return point;
+  };
+  patch.width = (triangle.positions[1] - triangle.positions[0]).norm();
+  patch.height = (triangle.positions[2] - triangle.positions[1]).norm();
+  patch.triangle = &triangle;
+  return patch;
+}
+
+std::vector<Patch> patches(const Mesh& mesh) {
+  std::vector<Patch> made;
+  if (!mesh.triangles) return made;
+  for (const MeshTriangle& triangle : *mesh.triangles)
+    made.push_back(patch_of(mesh.triangles, triangle));
+  return made;
+}
+
 }  // namespace
 
 std::vector<Vector2d> mug_profile(const Mug& mug) {

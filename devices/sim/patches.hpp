@@ -30,6 +30,8 @@ struct Patch {
   // top, or, for a shape turned about z, the level z / fit_height.
   Eigen::Vector2d fit{1, 1};
   double fit_height = 0;
+  // Of a mesh's triangle: it fills the half with v <= u, and the other half lies on its long side.
+  const MeshTriangle* triangle = nullptr;
 };
 
 std::vector<Patch> patches_of(const Shape& shape);

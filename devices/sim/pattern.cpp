@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -173,6 +174,18 @@ cv::Mat paint_glaze(const Material& material, Random& random) {
   return to_8_bit(image);
 }
 
+cv::Mat in_powers_of_two(const cv::Mat& picture) {
+  static constexpr int kLargest = 1024;  // px
+  const auto side = [](int pixels) {
+    return std::min(kLargest, static_cast<int>(std::bit_ceil(static_cast<unsigned>(pixels))));
+  };
+  const cv::Size size(side(picture.cols), side(picture.rows));
+  cv::Mat image;
+  const bool smaller = size.width < picture.cols || size.height < picture.rows;
+  cv::resize(picture, image, size, 0, 0, smaller ? cv::INTER_AREA : cv::INTER_LINEAR);
+  return image;
+}
+
 }  // namespace
 
 cv::Mat paint_pattern(const Material& material, std::uint64_t seed) {
@@ -202,6 +215,8 @@ cv::Mat paint_pattern(const Material& material, std::uint64_t seed) {
       return paint_shapes(material, random);
     case Pattern::leaves:
       return paint_leaves(material, random);
+    case Pattern::texture:
+      return in_powers_of_two(material.picture);
   }
   return {};
 }

@@ -98,6 +98,13 @@ double distance(const Slab& slab, const Vector3d& p) {
   return both(distance_to_polygon(outline, p.head<2>()), between(p.z(), 0, slab.thickness));
 }
 
+double distance(const Mesh& mesh, const Vector3d& p) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Eigen::Hyperplane<double, 3>& side : mesh.around)
+    most = std::max(most, side.signedDistance(p));
+  return most;
+}
+
 }  // namespace
 
 double signed_distance(const Shape& shape, const Vector3d& point) {

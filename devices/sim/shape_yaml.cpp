@@ -67,10 +67,12 @@ Shape shape_from(YamlMap& map) {
     shapes.push_back(lathe_from(node, map.path("lathe")));
   if (const YAML::Node node = map.find("slab"))
     shapes.push_back(slab_from({node, map.path("slab")}));
+  if (map.find("mesh"))
+    shapes.push_back(Mesh{map.text("mesh"), map.number("scale", 1e-6, 1e6, 1), nullptr, {}});
   if (shapes.size() != 1)
     throw Complaint{
         "'" + map.path("") +
-        "' needs one shape: box, cylinder, panel, mug, lathe, capsule, tapered or slab"};
+        "' needs one shape: box, cylinder, panel, mug, lathe, capsule, tapered, slab or mesh"};
   return shapes.front();
 }
 

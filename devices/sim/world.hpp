@@ -3,13 +3,16 @@
 // first.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <opencv2/core/mat.hpp>
 
 #include "devices/sim/hand/hand_script.hpp"
 #include "devices/sim/infrared/infrared_description.hpp"
@@ -64,7 +67,21 @@ struct Slab {
   std::vector<Station> stations;  // x increases
   double thickness = 0;
 };
-using Shape = std::variant<Box, Cylinder, Panel, Lathe, Mug, Capsule, TaperedBox, Slab>;
+// Triangles from a file, in its own frame.
+struct MeshTriangle {                        // corners counter-clockwise as seen from outside
+  std::array<Eigen::Vector3d, 3> positions;  // m
+  std::array<Eigen::Vector3d, 3> normals;    // unit
+  std::array<Eigen::Vector2d, 3> pictured;   // where on a fitted picture, 0..1, v down
+};
+struct Mesh {
+  std::string file;  // as the world's file names it
+  double scale = 1;  // m that a unit of the file is
+  // Until they are loaded there are none.
+  std::shared_ptr<const std::vector<MeshTriangle>> triangles;
+  // The sides of a convex solid close around them, for what touches it; normals outwards.
+  std::vector<Eigen::Hyperplane<double, 3>> around;
+};
+using Shape = std::variant<Box, Cylinder, Panel, Lathe, Mug, Capsule, TaperedBox, Slab, Mesh>;
 
 enum class Pattern {
   plain,      // colours: 1, with a faint mottle
@@ -79,6 +96,7 @@ enum class Pattern {
   landscape,  // frame, mount, sky, sun, then hills from far to near: a picture
   shapes,     // frame, mount, ground, then shapes: a picture
   leaves,     // frame, mount, ground, leaf, leaf: a picture
+  texture,    // no colours: a picture from a file
 };
 
 struct Material {
@@ -88,6 +106,8 @@ struct Material {
   double size = 1;   // m that one repeat of the pattern covers
   bool fit = false;  // the pattern covers each face just once instead
   double shine = 0;  // 0 dull .. 1 glazed: strength of the highlight, and of a depth camera's glare
+  std::string texture;  // the picture's file as the world's file names it; else empty
+  cv::Mat picture;      // what it holds, CV_8UC3 BGR; empty until it is loaded
   double infrared = 1;  // share of the depth camera's light that comes back; 0: no depth at all
 };
 

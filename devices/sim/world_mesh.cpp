@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include <Eigen/Geometry>
+
 #include "devices/sim/patches.hpp"
 
 namespace armsreach::sim {
@@ -12,9 +14,10 @@ namespace {
 constexpr int kAtlasWidth = 512;
 
 // Soft light changes over centimetres on large faces and over millimetres on small things.
-int texel_count(double length, double longer_side) {
-  const double texel = std::clamp(longer_side / 100, 0.005, 0.03);
-  return std::clamp(static_cast<int>(std::ceil(length / texel)), 4, kAtlasWidth);
+int texel_count(double length, const Patch& patch) {
+  const double texel = std::clamp(std::max(patch.width, patch.height) / 100, 0.005, 0.03);
+  const int least = patch.triangle ? 2 : 4;  // a mesh's corners are close as they are
+  return std::clamp(static_cast<int>(std::ceil(length / texel)), least, kAtlasWidth);
 }
 
 struct Chart {
@@ -57,8 +60,7 @@ std::vector<PlacedPatch> placed_patches(const World& world, Shelves& shelves) {
   std::vector<PlacedPatch> placed;
   for (std::size_t i = 0; i < world.parts.size(); ++i) {
     for (Patch& patch : patches_of(world.parts[i].shape)) {
-      const double longer = std::max(patch.width, patch.height);
-      const Chart chart{0, 0, texel_count(patch.width, longer), texel_count(patch.height, longer)};
+      const Chart chart{0, 0, texel_count(patch.width, patch), texel_count(patch.height, patch)};
       placed.push_back({i, std::move(patch), chart});
     }
   }
@@ -72,8 +74,21 @@ std::vector<PlacedPatch> placed_patches(const World& world, Shelves& shelves) {
   return placed;
 }
 
+// On a mesh a pattern in metres is seen along the axis that a triangle faces most.
+Eigen::Vector2d texture_on(const MeshTriangle& triangle, const Material& material, double u,
+                           double v, const Eigen::Vector3d& position) {
+  const auto& at = triangle.pictured;
+  if (material.fit) return (1 - u) * at[0] + (u - v) * at[1] + v * at[2];
+  const auto& corner = triangle.positions;
+  Eigen::Index axis = 0;
+  (corner[1] - corner[0]).cross(corner[2] - corner[0]).cwiseAbs().maxCoeff(&axis);
+  const Eigen::Vector2d metres(position[axis == 0 ? 1 : 0], -position[axis == 2 ? 1 : 2]);
+  return metres / material.size;
+}
+
 Eigen::Vector2d texture_at(const Patch& patch, const Material& material, double u, double v,
                            const Eigen::Vector3d& position) {
+  if (patch.triangle) return texture_on(*patch.triangle, material, u, v, position);
   if (material.fit && patch.fit_height > 0) return {u, 1 - position.z() / patch.fit_height};
   if (material.fit) return {u * patch.fit.x(), (1 - v) * patch.fit.y()};
   const Eigen::Vector2d metres = patch.disc ? Eigen::Vector2d(position.x(), -position.y())
@@ -81,25 +96,36 @@ Eigen::Vector2d texture_at(const Patch& patch, const Material& material, double 
   return metres / material.size;
 }
 
+void add_vertex(const PlacedPatch& placed, const Pose& thing_from_part, const Material& material,
+                double u, double v, WorldMesh& mesh) {
+  const Chart& chart = placed.chart;
+  const SurfacePoint point = placed.patch.at(u, v);
+  // The patch's edge lies on the centres of its outer texels, so that filtering never reaches a
+  // neighbour's.
+  const Eigen::Vector2d light((chart.x + 0.5 + u * (chart.width - 1)) / mesh.atlas_width,
+                              (chart.y + 0.5 + v * (chart.height - 1)) / mesh.atlas_height);
+  const Eigen::Vector3d position = thing_from_part * point.position;
+  const Eigen::Vector3d normal = thing_from_part.rotation() * point.normal;
+  mesh.vertices.push_back({position.cast<float>(), normal.cast<float>(),
+                           texture_at(placed.patch, material, u, v, point.position).cast<float>(),
+                           light.cast<float>()});
+}
+
 void add_triangles(const PlacedPatch& placed, const Pose& thing_from_part, const Material& material,
                    WorldMesh& mesh) {
   const Patch& patch = placed.patch;
-  const Chart& chart = placed.chart;
   const std::uint32_t base = static_cast<std::uint32_t>(mesh.vertices.size());
+  if (patch.triangle) {
+    for (const std::uint32_t corner : {0U, 1U, 2U}) {
+      add_vertex(placed, thing_from_part, material, corner > 0, corner > 1, mesh);
+      mesh.indices.push_back(base + corner);
+    }
+    return;
+  }
   for (int row = 0; row <= patch.rows; ++row) {
     for (int column = 0; column <= patch.columns; ++column) {
-      const double u = static_cast<double>(column) / patch.columns;
-      const double v = static_cast<double>(row) / patch.rows;
-      const SurfacePoint point = patch.at(u, v);
-      // The patch's edge lies on the centres of its outer texels, so that filtering never reaches
-      // a neighbour's.
-      const Eigen::Vector2d light((chart.x + 0.5 + u * (chart.width - 1)) / mesh.atlas_width,
-                                  (chart.y + 0.5 + v * (chart.height - 1)) / mesh.atlas_height);
-      const Eigen::Vector3d position = thing_from_part * point.position;
-      const Eigen::Vector3d normal = thing_from_part.rotation() * point.normal;
-      mesh.vertices.push_back({position.cast<float>(), normal.cast<float>(),
-                               texture_at(patch, material, u, v, point.position).cast<float>(),
-                               light.cast<float>()});
+      add_vertex(placed, thing_from_part, material, static_cast<double>(column) / patch.columns,
+                 static_cast<double>(row) / patch.rows, mesh);
     }
   }
   const std::uint32_t stride = static_cast<std::uint32_t>(patch.columns) + 1;

@@ -11,6 +11,7 @@
 //          keys: [{time, eye: [x, y, z], target: [x, y, z], roll_deg}, ...]}
 //   wearer: {height, sway, keys: [{time, stand: [x, y], heading_deg, look: [x, y, z], reach}, ...]}
 //   materials: {NAME: {pattern, colors: ["#rrggbb", ...], size | fit, shine, infrared}, ...}
+//              or, in place of pattern and colors, texture: FILE of a picture
 //   things: [{name, at: [x, y, z], turn_deg: [x, y, z], SHAPE, material}, ...]
 //   motions: [{thing: NAME, keys: [{t, at, turn_deg} | {t, rest: true}, ...]}, ...]
 //   hands: none, or as in hand_yaml.hpp
@@ -24,11 +25,13 @@
 //   mug: [radius, height, wall]   lathe: [[radius, z], ...]
 //   tapered: [lower x, lower y, upper x, upper y, height]
 //   slab: {outline: [[x, low y, high y], ...], thickness}
+//   mesh: FILE, with scale: the metres that a unit of the file is, if not 1
 //
 // or, of a thing of several pieces, `parts: [{SHAPE, at, turn_deg, material}, ...]` in the thing's
 // frame. What is turned is turned about the outer frame's x, then y, then z, and then moved to
 // `at`. A motion starts where the thing stands; keys at rest keep it where it was. A path with a
-// single key is a tripod, and a wearer's world needs of its path only the duration.
+// single key is a tripod, and a wearer's world needs of its path only the duration. This codec names
+// the files of meshes and pictures; world_files.hpp loads them.
 #pragma once
 
 #include <istream>

@@ -1,9 +1,11 @@
 #include "devices/sim/worlds.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
+#include "devices/sim/world_files.hpp"
 #include "devices/sim/world_yaml.hpp"
 #include "render/assets.hpp"
 
@@ -22,7 +24,11 @@ Result<World> load_world(const std::string& name) {
   if (is_world_file(name)) {
     std::ifstream in(name);
     if (!in) return Error{"no such world file", name, "give the path of a YAML file"};
-    return read_world_yaml(in, name);
+    Result<World> world = read_world_yaml(in, name);
+    if (!world) return world;
+    const Status loaded = load_files(std::filesystem::path(name).parent_path(), *world);
+    if (!loaded) return loaded.error();
+    return world;
   }
   const auto& names = world_names();
   if (std::find(names.begin(), names.end(), name) == names.end()) {

@@ -66,7 +66,7 @@ struct HandPainter::Body {
 namespace {
 
 std::size_t level_for(double pixels_per_metre) {
-  constexpr double kSide = 2.2;  // px that a triangle's side may have
+  constexpr double kSide = 2.8;  // px that a triangle's side may have
   std::size_t level = kCells.size() - 1;
   while (level > 0 && kCells[level] * pixels_per_metre > kSide) --level;
   return level;

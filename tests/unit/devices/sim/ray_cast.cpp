@@ -148,6 +148,24 @@ double meet(const Mug& mug, const Vector3d& o, const Vector3d& d) {
   return meet(around(mug), o, d);
 }
 
+// The nearest of its triangles that faces the ray. Source: Moeller, Trumbore, "Fast, minimum
+// storage ray-triangle intersection", 1997.
+double meet(const Mesh& mesh, const Vector3d& o, const Vector3d& d) {
+  double nearest = kInfinity;
+  for (const MeshTriangle& triangle : *mesh.triangles) {
+    const auto& [a, b, c] = triangle.positions;
+    const Vector3d across = d.cross(c - a);
+    const double determinant = (b - a).dot(across);
+    if (determinant <= 0) continue;
+    const double u = (o - a).dot(across) / determinant;
+    const Vector3d along = (o - a).cross(b - a);
+    const double v = d.dot(along) / determinant;
+    const double t = (c - a).dot(along) / determinant;
+    if (u >= 0 && v >= 0 && u + v <= 1 && t > 0) nearest = std::min(nearest, t);
+  }
+  return nearest;
+}
+
 bool is_turned_shape(const Shape& shape) {
   return std::holds_alternative<Lathe>(shape) || std::holds_alternative<Mug>(shape);
 }
@@ -183,6 +201,13 @@ double distance(const Slab& slab, const Vector3d& p) {
   const double to = slab.stations.back().x;
   const Vector3d centred = p - Vector3d((from + to) / 2, 0, 0);
   return distance_to_box({(to - from) / 2, half, 0}, slab.thickness, centred);
+}
+double distance(const Mesh& mesh, const Vector3d& p) {
+  Eigen::AlignedBox3d box;
+  for (const MeshTriangle& triangle : *mesh.triangles) {
+    for (const Vector3d& corner : triangle.positions) box.extend(corner);
+  }
+  return box.exteriorDistance(p);
 }
 double distance(const Lathe& lathe, const Vector3d& p) { return distance(around(lathe), p); }
 double distance(const Mug& mug, const Vector3d& p) { return distance(around(mug), p); }
