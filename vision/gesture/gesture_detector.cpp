@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <utility>
 
 #include "vision/gesture/hand_separation.hpp"
@@ -35,10 +36,53 @@ Eigen::Vector2d farthest_along(const std::vector<cv::Point>& outline, const Eige
   return tip;
 }
 
+// Where the wrist is cut, and so the hand's area, is uncertain: rings are tried at sizes around it.
+constexpr std::array kSizes{0.95, 1.0, 1.05};
+
+constexpr std::size_t kManyGestures = 8;
+
 // Sampling at eight angles within a step averages out which side of a pixel's edge samples fall on.
 constexpr std::array kPhases{-0.4375, -0.3125, -0.1875, -0.0625, 0.0625, 0.1875, 0.3125, 0.4375};
 
+HandShape sized(const HandShape& shape, double size) {
+  HandShape other = shape;
+  other.area *= size * size;
+  return other;
+}
+
+// What was looked at, and how like each gesture it is.
+struct Reading {
+  HandShape shape;  // of the size at which the best gesture matched
+  std::vector<RingMatch> matches;
+};
+
+Reading read(const RingMatcher& matcher, const HandShape& shape, Hands hands) {
+  Reading reading;
+  double best = -1;
+  for (const double size : kSizes) {
+    const HandShape at_size = sized(shape, size);
+    const auto these =
+        matcher.match(signature_of(at_size, matcher.set().layout), hands, straight_angle(shape));
+    if (reading.matches.empty()) reading = {at_size, these};
+    for (std::size_t i = 0; i < these.size(); ++i) {
+      if (these[i].g > reading.matches[i].g) reading.matches[i] = these[i];
+      if (these[i].g <= best) continue;
+      best = these[i].g;
+      reading.shape = at_size;
+    }
+  }
+  return reading;
+}
+
 }  // namespace
+
+GestureDetectorOptions options_for(const TemplateSet& set) {
+  std::set<std::string> gestures;
+  for (const GestureTemplate& one : set.templates) gestures.insert(one.gesture);
+  GestureDetectorOptions options;
+  if (gestures.size() >= kManyGestures) options.least_score = 0.85, options.least_margin = 0.0025;
+  return options;
+}
 
 std::optional<double> straight_angle(const HandShape& shape) {
   if (!shape.to_arm) return std::nullopt;
@@ -82,27 +126,26 @@ GestureDetector::GestureDetector(TemplateSet set, const GestureDetectorOptions& 
     : options_(options), finder_(options.hands), matcher_(std::move(set)) {}
 
 HandObservation GestureDetector::observe(const HandBlob& blob) const {
-  const HandShape* shape = &blob.readings[0];
+  HandShape shape = blob.readings[0];
   std::vector<RingMatch> matches;
-  for (const HandShape& reading : blob.readings) {
-    auto these = matcher_.match(signature_of(reading, matcher_.set().layout), options_.templates,
-                                straight_angle(reading));
-    const RingMatch* best = best_two(these).first;
+  for (const HandShape& one : blob.readings) {
+    Reading reading = read(matcher_, one, options_.templates);
+    const RingMatch* best = best_two(reading.matches).first;
     if (best == nullptr) break;
     if (!matches.empty() && best->g <= best_two(matches).first->g) continue;
-    matches = std::move(these);
-    shape = &reading;
+    matches = std::move(reading.matches);
+    shape = std::move(reading.shape);
   }
   HandObservation seen;
   seen.outline = blob.outline;
-  seen.center = shape->center;
-  seen.area = shape->area;
+  seen.center = shape.center;
+  seen.area = shape.area;
   for (std::size_t i = 0; i < matches.size(); ++i)
     seen.scores[matcher_.gestures()[i]] = matches[i].g;
   const auto [best, second] = best_two(matches);
   if (best != nullptr) {
     seen.score = best->g;
-    seen.angle = fine_angle(matcher_, *shape, *best);
+    seen.angle = fine_angle(matcher_, shape, *best);
     const double margin = second == nullptr ? 1 : best->g - second->g;
     if (blob.plausible && best->g >= options_.least_score && margin >= options_.least_margin)
       seen.gesture = matcher_.gestures()[static_cast<std::size_t>(best - matches.data())];

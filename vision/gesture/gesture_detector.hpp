@@ -21,6 +21,10 @@ struct GestureDetectorOptions {
   double least_margin = 0.01;  // by which it exceeds every other gesture's
 };
 
+// As fits the vocabulary: outlines of numerals differ by less than those of a few gestures that
+// were chosen to be told apart, so that a smaller margin counts.
+GestureDetectorOptions options_for(const TemplateSet& set);
+
 // How far a hand that is straight on its forearm is turned from upright, rad clockwise; nothing
 // where no forearm was seen.
 std::optional<double> straight_angle(const HandShape& shape);

@@ -27,7 +27,7 @@ struct RingLayout {
 // Five rings, radii doubling, all samples alike. [paper]
 RingLayout doubling_rings(int k = 90);
 
-// Twelve rings at equal distances; weights are proportional to radii, so that each stands for the
+// Sixteen rings at equal distances; weights are proportional to radii, so that each stands for the
 // area around it.
 RingLayout linear_rings(int k = 45);
 
