@@ -54,24 +54,32 @@ HandShape sized(const HandShape& shape, double size) {
 struct Reading {
   HandShape shape;  // of the size at which the best gesture matched
   std::vector<RingMatch> matches;
+  double best = -1;  // g
 };
 
-Reading read(const RingMatcher& matcher, const HandShape& shape, Hands hands) {
-  Reading reading;
-  double best = -1;
+Reading read_as(const RingMatcher& matcher, const HandShape& shape, Hands hand) {
+  Reading reading{shape, {}};
   for (const double size : kSizes) {
     const HandShape at_size = sized(shape, size);
     const auto these =
-        matcher.match(signature_of(at_size, matcher.set().layout), hands, straight_angle(shape));
-    if (reading.matches.empty()) reading = {at_size, these};
+        matcher.match(signature_of(at_size, matcher.set().layout), hand, straight_angle(shape));
+    if (reading.matches.empty()) reading.matches = these;
     for (std::size_t i = 0; i < these.size(); ++i) {
       if (these[i].g > reading.matches[i].g) reading.matches[i] = these[i];
-      if (these[i].g <= best) continue;
-      best = these[i].g;
+      if (these[i].g <= reading.best) continue;
+      reading.best = these[i].g;
       reading.shape = at_size;
     }
   }
   return reading;
+}
+
+// A hand is a left or a right one for all gestures alike: a three in a mirror is like a seven.
+Reading read(const RingMatcher& matcher, const HandShape& shape, Hands hands) {
+  if (hands != Hands::both) return read_as(matcher, shape, hands);
+  Reading learnt = read_as(matcher, shape, Hands::as_learnt);
+  Reading other = read_as(matcher, shape, Hands::mirrored);
+  return other.best > learnt.best ? other : learnt;
 }
 
 }  // namespace
@@ -80,7 +88,7 @@ GestureDetectorOptions options_for(const TemplateSet& set) {
   std::set<std::string> gestures;
   for (const GestureTemplate& one : set.templates) gestures.insert(one.gesture);
   GestureDetectorOptions options;
-  if (gestures.size() >= kManyGestures) options.least_score = 0.85, options.least_margin = 0.0025;
+  if (gestures.size() >= kManyGestures) options.least_score = 0.85, options.least_margin = 0.003;
   return options;
 }
 
@@ -126,16 +134,13 @@ GestureDetector::GestureDetector(TemplateSet set, const GestureDetectorOptions& 
     : options_(options), finder_(options.hands), matcher_(std::move(set)) {}
 
 HandObservation GestureDetector::observe(const HandBlob& blob) const {
-  HandShape shape = blob.readings[0];
-  std::vector<RingMatch> matches;
+  Reading reading{blob.readings[0], {}};
   for (const HandShape& one : blob.readings) {
-    Reading reading = read(matcher_, one, options_.templates);
-    const RingMatch* best = best_two(reading.matches).first;
-    if (best == nullptr) break;
-    if (!matches.empty() && best->g <= best_two(matches).first->g) continue;
-    matches = std::move(reading.matches);
-    shape = std::move(reading.shape);
+    Reading next = read(matcher_, one, options_.templates);
+    if (next.best > reading.best) reading = std::move(next);
   }
+  const HandShape& shape = reading.shape;
+  const std::vector<RingMatch>& matches = reading.matches;
   HandObservation seen;
   seen.outline = blob.outline;
   seen.center = shape.center;

@@ -144,9 +144,10 @@ double RingMatcher::angle_of(const RingSignature& seen, const RingMatch& best) c
 std::vector<RingMatch> RingMatcher::match(const RingSignature& seen, Hands hands,
                                           const std::optional<double>& straight) const {
   std::vector<Best> best(gestures_.size());
-  search(seen, false, straight ? shifts_around(*straight) : all_shifts(), &best);
+  if (hands != Hands::mirrored)
+    search(seen, false, straight ? shifts_around(*straight) : all_shifts(), &best);
   const RingSignature mirror = mirrored(seen, set_.layout);
-  if (hands == Hands::both)
+  if (hands != Hands::as_learnt)
     search(mirror, true, straight ? shifts_around(-*straight) : all_shifts(), &best);
   std::vector<RingMatch> matches;
   for (const Best& one : best) {
