@@ -88,7 +88,7 @@ GestureDetectorOptions options_for(const TemplateSet& set) {
   std::set<std::string> gestures;
   for (const GestureTemplate& one : set.templates) gestures.insert(one.gesture);
   GestureDetectorOptions options;
-  if (gestures.size() >= kManyGestures) options.least_score = 0.85, options.least_margin = 0.003;
+  if (gestures.size() >= kManyGestures) options.least_margin = 0.003;
   return options;
 }
 
