@@ -24,11 +24,21 @@ struct DetectGesturesOptions {
 };
 
 nlohmann::json json_from_hand(const HandPicture& picture, const gesture::HandObservation& hand) {
-  nlohmann::json json = {
-      {"file", picture.file},        {"frame", picture.frame}, {"hand", hand.hand},
-      {"gesture", nullptr},          {"score", hand.score},    {"angle", hand.angle},
-      {"x", hand.center.x()},        {"y", hand.center.y()},   {"tip_x", hand.fingertip.x()},
-      {"tip_y", hand.fingertip.y()}, {"area", hand.area},      {"scores", hand.scores}};
+  // Pixels of the file.
+  const double scale = 1.0 / picture.enlarged;
+  const auto in_file = [&](double at) { return (at + 0.5) * scale - 0.5; };
+  nlohmann::json json = {{"file", picture.file},
+                         {"frame", picture.frame},
+                         {"hand", hand.hand},
+                         {"gesture", nullptr},
+                         {"score", hand.score},
+                         {"angle", hand.angle},
+                         {"x", in_file(hand.center.x())},
+                         {"y", in_file(hand.center.y())},
+                         {"tip_x", in_file(hand.fingertip.x())},
+                         {"tip_y", in_file(hand.fingertip.y())},
+                         {"area", hand.area * scale * scale},
+                         {"scores", hand.scores}};
   if (hand.gesture) json["gesture"] = *hand.gesture;
   return json;
 }
@@ -36,7 +46,8 @@ nlohmann::json json_from_hand(const HandPicture& picture, const gesture::HandObs
 Status detect(const DetectGesturesOptions& options) {
   auto templates = load_templates(options.templates, options.vocabulary);
   if (!templates) return templates.error();
-  const gesture::GestureDetector detector(std::move(*templates));
+  const auto how = gesture::options_for(*templates);
+  const gesture::GestureDetector detector(std::move(*templates), how);
   nlohmann::json all = nlohmann::json::array();
   const auto status =
       for_hand_pictures(options.places, options.skin, [&](const HandPicture& picture) -> Status {

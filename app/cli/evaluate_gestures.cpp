@@ -58,7 +58,7 @@ std::vector<gesture::GestureDetector> detectors_over_k(const gesture::TemplateSe
   std::vector<gesture::GestureDetector> detectors;
   for (const int n : {1, 3, 5, 9, 15}) {
     if (set.layout.samples % (2 * n) == 0 && set.layout.samples / n >= 4)
-      detectors.emplace_back(thinned(set, n));
+      detectors.emplace_back(thinned(set, n), gesture::options_for(set));
   }
   return detectors;
 }

@@ -4,6 +4,8 @@
 #include <optional>
 #include <utility>
 
+#include <opencv2/imgproc.hpp>
+
 #include "app/cli/color_files.hpp"
 #include "app/runtime/progress.hpp"
 #include "devices/files.hpp"
@@ -15,6 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using Adaptation = gesture::SkinOptions::Adaptation;
+constexpr int kThumbnail = 160;  // px: narrower pictures are enlarged
+
 using Look = std::function<Status(const HandPicture&)>;
 
 gesture::SkinSegmenter segmenter(const gesture::ColorModel& model, Adaptation adaptation) {
@@ -65,8 +69,12 @@ Status for_hand_pictures(const std::vector<std::string>& places, const SkinSourc
       auto bgr = read_picture(file);
       if (!bgr) return bgr.error();
       HandPicture picture{file.string(), 0, *bgr, {}};
+      if (source.masks.empty() && bgr->cols < kThumbnail) {
+        picture.enlarged = 2;
+        cv::resize(*bgr, picture.bgr, {}, 2, 2, cv::INTER_LINEAR);
+      }
       if (source.masks.empty()) {
-        picture.skin = skin.segment(*bgr);
+        picture.skin = skin.segment(picture.bgr);
       } else {
         auto mask = read_mask_of(file, source.masks, bgr->size(), std::nullopt);
         if (!mask) return mask.error();

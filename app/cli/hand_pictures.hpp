@@ -17,6 +17,7 @@ struct HandPicture {
   std::int64_t frame = 0;  // of a video; 0 for images
   cv::Mat bgr;             // CV_8UC3
   cv::Mat skin;            // CV_8UC1, 255 on it
+  int enlarged = 1;        // times, both of them: a thumbnail's skin is found between its pixels
 };
 
 struct SkinSource {

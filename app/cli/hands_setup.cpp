@@ -57,10 +57,10 @@ cv::Mat within_reach(const cv::Mat& skin, const Frame& frame, double reach) {
 // Looks at one image after the other, on one thread.
 class Looking {
  public:
-  Looking(gesture::ColorModel skin, gesture::TemplateSet templates,
+  Looking(gesture::ColorModel skin, const gesture::TemplateSet& templates,
           std::optional<gesture::ColorModel> colors, double reach)
       : skin_(std::move(skin), {.adaptation = gesture::SkinOptions::Adaptation::stream}),
-        hands_(std::move(templates)),
+        hands_(templates, gesture::options_for(templates)),
         reach_(reach) {
     if (colors) things_.emplace(*std::move(colors));
   }
@@ -90,8 +90,8 @@ Result<HandDetectors> make_detectors(const GestureConfig& config, bool show_ring
     if (!model) return model.error();
     colors = *std::move(model);
   }
-  const auto looking = std::make_shared<Looking>(*std::move(skin), *std::move(templates),
-                                                 std::move(colors), config.reach);
+  const auto looking =
+      std::make_shared<Looking>(*std::move(skin), *templates, std::move(colors), config.reach);
   HandDetectors detectors;
   if (show_rings)
     detectors.rings.assign(looking->rings().radii.begin(), looking->rings().radii.end());

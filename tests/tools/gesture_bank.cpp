@@ -1,5 +1,5 @@
 // Makes the templates in assets/gestures:
-//   armsreach_gesture_bank OUT_FOLDER SIGN_LANGUAGE_DIGITS_FOLDER
+//   armsreach_gesture_bank OUT_FOLDER SIGN_LANGUAGE_DIGITS_FOLDER SKIN_MODEL
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -8,6 +8,7 @@
 
 #include "photographed_numerals.hpp"
 #include "simulated_gestures.hpp"
+#include "vision/gesture/color_model_yaml.hpp"
 #include "vision/gesture/gesture_detector.hpp"
 
 namespace armsreach::tools {
@@ -18,8 +19,9 @@ namespace fs = std::filesystem;
 constexpr int kWearablePeople = 30;
 constexpr int kNumeralPeople = 16;
 
-gesture::TemplateSet bank_of(const std::vector<BankExample>& examples) {
-  gesture::TemplateSet set;
+gesture::TemplateSet bank_of(const std::vector<BankExample>& examples,
+                             const gesture::RingLayout& layout) {
+  gesture::TemplateSet set{layout, {}};
   const gesture::HandFinder finder;
   for (const BankExample& one : examples) {
     const auto blobs = finder.find(one.mask);
@@ -43,11 +45,19 @@ bool write(const fs::path& folder, const gesture::TemplateSet& set) {
   return true;
 }
 
-int make(const fs::path& out, const std::string& digits) {
+int make(const fs::path& out, const std::string& digits, const std::string& skin) {
+  std::ifstream in(skin);
+  auto model = gesture::read_color_model(in, skin);
+  if (!model) {
+    std::fprintf(stderr, "%s\n", model.error().message().c_str());
+    return 2;
+  }
+  gesture::SkinSegmenter segmenter(*std::move(model),
+                                   {.adaptation = gesture::SkinOptions::Adaptation::image});
   std::vector<BankExample> numerals = simulated_numerals(kNumeralPeople);
-  for (const BankExample& one : photographed_numerals(digits)) numerals.push_back(one);
-  const bool written = write(out / "wearable", bank_of(simulated_wearable(kWearablePeople))) &&
-                       write(out / "asl-digits", bank_of(numerals));
+  for (const BankExample& one : photographed_numerals(digits, segmenter)) numerals.push_back(one);
+  const bool written = write(out / "wearable", bank_of(simulated_wearable(kWearablePeople), gesture::linear_rings())) &&
+                       write(out / "asl-digits", bank_of(numerals, gesture::fine_rings()));
   return written ? 0 : 3;
 }
 
@@ -55,7 +65,8 @@ int make(const fs::path& out, const std::string& digits) {
 }  // namespace armsreach::tools
 
 int main(int argc, char** argv) {
-  if (argc == 3) return armsreach::tools::make(argv[1], argv[2]);
-  std::fprintf(stderr, "armsreach_gesture_bank OUT_FOLDER SIGN_LANGUAGE_DIGITS_FOLDER\n");
+  if (argc == 4) return armsreach::tools::make(argv[1], argv[2], argv[3]);
+  std::fprintf(stderr,
+               "armsreach_gesture_bank OUT_FOLDER SIGN_LANGUAGE_DIGITS_FOLDER SKIN_MODEL\n");
   return 2;
 }

@@ -8,26 +8,11 @@
 #include <opencv2/imgproc.hpp>
 
 namespace armsreach::tools {
-namespace {
 
 namespace fs = std::filesystem;
 
-// Skin is redder than the background; where to cut is Otsu's to say.
-cv::Mat hand_mask(const cv::Mat& bgr) {
-  std::vector<cv::Mat> channels;
-  cv::split(bgr, channels);
-  cv::Mat redness;
-  cv::subtract(channels[2], channels[0], redness);
-  cv::GaussianBlur(redness, redness, {3, 3}, 0);
-  cv::normalize(redness, redness, 0, 255, cv::NORM_MINMAX);
-  cv::Mat mask;
-  cv::threshold(redness, mask, 0, 255, cv::THRESH_BINARY | cv::THRESH_OTSU);
-  return mask;
-}
-
-}  // namespace
-
-std::vector<BankExample> photographed_numerals(const std::string& folder) {
+std::vector<BankExample> photographed_numerals(const std::string& folder,
+                                               gesture::SkinSegmenter& skin) {
   std::vector<BankExample> examples;
   for (int numeral = 0; numeral < 10; ++numeral) {
     std::vector<fs::path> files;
@@ -36,8 +21,10 @@ std::vector<BankExample> photographed_numerals(const std::string& folder) {
     std::sort(files.begin(), files.end());
     for (const fs::path& file : files) {
       const int person = std::atoi(file.filename().c_str());
-      if (person % 2 == 0)
-        examples.push_back({std::to_string(numeral), hand_mask(cv::imread(file.string())), false});
+      if (person % kPeopleToOneKept == 0) continue;
+      cv::Mat larger;
+      cv::resize(cv::imread(file.string()), larger, {}, 2, 2, cv::INTER_LINEAR);
+      examples.push_back({std::to_string(numeral), skin.segment(larger).clone(), false});
     }
   }
   return examples;

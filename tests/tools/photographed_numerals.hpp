@@ -6,10 +6,15 @@
 #include <vector>
 
 #include "bank_example.hpp"
+#include "vision/gesture/skin_segmenter.hpp"
 
 namespace armsreach::tools {
 
-// Of people with an even number only, so that the others stay unseen.
-std::vector<BankExample> photographed_numerals(const std::string& folder);
+// Of people whose number divides by this nothing is learnt, so that they stay unseen.
+constexpr int kPeopleToOneKept = 5;
+
+// As `skin` sees them, with the faults that it has.
+std::vector<BankExample> photographed_numerals(const std::string& folder,
+                                               gesture::SkinSegmenter& skin);
 
 }  // namespace armsreach::tools

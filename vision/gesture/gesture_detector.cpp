@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <utility>
 
 #include <opencv2/imgproc.hpp>
@@ -15,19 +16,39 @@
 namespace armsreach::gesture {
 namespace {
 
-// The two likeliest of the matches; the second may be missing.
-std::pair<const RingMatch*, const RingMatch*> best_two(const std::vector<RingMatch>& matches) {
-  const RingMatch* first = nullptr;
-  const RingMatch* second = nullptr;
-  for (const RingMatch& match : matches) {
-    if (first == nullptr || match.likeness > first->likeness) {
-      second = first;
-      first = &match;
-    } else if (second == nullptr || match.likeness > second->likeness) {
-      second = &match;
+double likeness_of(const RingMatch& match, const GestureDetectorOptions& options) {
+  return options.several_nearest ? match.likeness : match.g;
+}
+
+// What was looked at, and how like each gesture it is.
+struct Reading {
+  HandShape shape;  // of the size at which the best gesture matched
+  std::vector<RingMatch> matches;
+  double best = -1;  // likeness
+};
+
+// A gesture, and by how much it is likelier than every other.
+struct Likeliest {
+  std::size_t gesture = 0;
+  double likeness = -1;
+  double margin = 1;
+};
+
+Likeliest likeliest_of(const std::vector<RingMatch>& matches,
+                       const GestureDetectorOptions& options) {
+  Likeliest first;
+  double second = -1;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    const double likeness = likeness_of(matches[i], options);
+    if (likeness > first.likeness) {
+      second = first.likeness;
+      first = {i, likeness, 1};
+    } else {
+      second = std::max(second, likeness);
     }
   }
-  return {first, second};
+  if (matches.size() > 1) first.margin = first.likeness - second;
+  return first;
 }
 
 Eigen::Vector2d farthest_along(const std::vector<cv::Point>& outline, const Eigen::Vector2d& axis) {
@@ -56,7 +77,61 @@ double clutter_around(std::size_t index, const std::vector<HandBlob>& blobs, con
 // Sampling at eight angles within a step averages out which side of a pixel's edge samples fall on.
 constexpr std::array kPhases{-0.4375, -0.3125, -0.1875, -0.0625, 0.0625, 0.1875, 0.3125, 0.4375};
 
+HandShape sized(const HandShape& shape, double size) {
+  HandShape other = shape;
+  other.area *= size * size;
+  return other;
+}
+
+Reading read_as(const RingMatcher& matcher, const HandShape& shape, Hands hand,
+                const GestureDetectorOptions& options) {
+  Reading reading{shape, {}};
+  for (const double size : options.sizes) {
+    const HandShape at_size = sized(shape, size);
+    const auto these =
+        matcher.match(signature_of(at_size, matcher.set().layout), hand, straight_angle(shape));
+    if (reading.matches.empty()) reading.matches = these;
+    for (std::size_t i = 0; i < these.size(); ++i) {
+      const double likeness = likeness_of(these[i], options);
+      if (likeness > likeness_of(reading.matches[i], options)) reading.matches[i] = these[i];
+      if (likeness <= reading.best) continue;
+      reading.best = likeness;
+      reading.shape = at_size;
+    }
+  }
+  return reading;
+}
+
+// A hand is a left or a right one for all gestures alike: a three in a mirror is like a seven.
+Reading read(const RingMatcher& matcher, const HandShape& shape,
+             const GestureDetectorOptions& options) {
+  if (options.templates != Hands::both) return read_as(matcher, shape, options.templates, options);
+  Reading learnt = read_as(matcher, shape, Hands::as_learnt, options);
+  Reading other = read_as(matcher, shape, Hands::mirrored, options);
+  return other.best > learnt.best ? other : learnt;
+}
+
 }  // namespace
+
+GestureDetectorOptions options_for(const TemplateSet& set) {
+  constexpr std::size_t kManyGestures = 8;
+  constexpr std::size_t kManyExamples = 20;  // of each
+  std::set<std::string> gestures;
+  for (const GestureTemplate& one : set.templates) gestures.insert(one.gesture);
+  const bool many_examples = set.templates.size() >= kManyExamples * gestures.size();
+  GestureDetectorOptions options;
+  if (gestures.size() >= kManyGestures || !many_examples) {
+    options.sizes = {0.95, 1.0, 1.05};
+    options.least_margin = gestures.size() >= kManyGestures ? 0.003 : 0.01;
+    options.least_score = many_examples ? 0.92 : 0.85;
+  } else {
+    options.several_nearest = true;
+    options.least_score = 0.8;
+    options.least_margin = 0.003;
+    options.least_log_odds = 0;
+  }
+  return options;
+}
 
 std::optional<double> straight_angle(const HandShape& shape) {
   if (!shape.to_arm) return std::nullopt;
@@ -101,36 +176,34 @@ GestureDetector::GestureDetector(TemplateSet set, const GestureDetectorOptions& 
     : options_(options), finder_(options.hands), matcher_(std::move(set)) {}
 
 HandObservation GestureDetector::observe(const HandBlob& blob, double clutter) const {
-  const HandShape* shape = &blob.readings[0];
-  std::vector<RingMatch> matches;
-  for (const HandShape& reading : blob.readings) {
-    auto these = matcher_.match(signature_of(reading, matcher_.set().layout), options_.templates,
-                                straight_angle(reading));
-    const RingMatch* best = best_two(these).first;
-    if (best == nullptr) break;
-    if (!matches.empty() && best->likeness <= best_two(matches).first->likeness) continue;
-    matches = std::move(these);
-    shape = &reading;
+  Reading reading{blob.readings[0], {}};
+  for (const HandShape& one : blob.readings) {
+    Reading next = read(matcher_, one, options_);
+    if (next.best > reading.best) reading = std::move(next);
   }
+  const std::vector<RingMatch>& matches = reading.matches;
   HandObservation seen;
   seen.outline = blob.outline;
-  seen.center = shape->center;
-  seen.area = shape->area;
+  seen.center = reading.shape.center;
+  seen.area = reading.shape.area;
   for (std::size_t i = 0; i < matches.size(); ++i)
     seen.scores[matcher_.gestures()[i]] = matches[i].g;
-  const auto [best, second] = best_two(matches);
-  if (best != nullptr) {
-    seen.likeliest = matcher_.gestures()[static_cast<std::size_t>(best - matches.data())];
-    seen.score = best->g;
-    seen.angle = fine_angle(matcher_, *shape, *best);
-    const double margin = second == nullptr ? 1 : best->likeness - second->likeness;
-    const double odds = log_odds({best->likeness, margin, contact_of(blob), clutter});
-    if (blob.plausible && best->g >= options_.least_score && margin >= options_.least_margin &&
-        odds >= options_.least_log_odds)
-      seen.gesture = seen.likeliest;
+  if (!matches.empty()) {
+    const Likeliest likeliest = likeliest_of(matches, options_);
+    const RingMatch& match = matches[likeliest.gesture];
+    seen.likeliest = matcher_.gestures()[likeliest.gesture];
+    seen.score = match.g;
+    seen.angle = fine_angle(matcher_, reading.shape, match);
+    const HandEvidence evidence{likeliest.likeness, likeliest.margin, contact_of(blob), clutter};
+    if (blob.plausible && is_told(match, evidence)) seen.gesture = seen.likeliest;
   }
   seen.fingertip = farthest_along(blob.outline, {std::sin(seen.angle), -std::cos(seen.angle)});
   return seen;
+}
+
+bool GestureDetector::is_told(const RingMatch& match, const HandEvidence& evidence) const {
+  if (match.g < options_.least_score || evidence.margin < options_.least_margin) return false;
+  return !options_.least_log_odds || log_odds(evidence) >= *options_.least_log_odds;
 }
 
 HandObservations GestureDetector::observe_all(const std::vector<HandBlob>& blobs,

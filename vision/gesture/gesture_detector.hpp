@@ -7,6 +7,7 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include "vision/gesture/hand_evidence.hpp"
 #include "vision/gesture/hand_observation.hpp"
 #include "vision/gesture/hand_shape.hpp"
 #include "vision/gesture/ring_matcher.hpp"
@@ -16,10 +17,20 @@ namespace armsreach::gesture {
 struct GestureDetectorOptions {
   HandFinderOptions hands;
   Hands templates = Hands::both;
-  double least_score = 0.8;     // g of a gesture that is told; see also hand_evidence.hpp
-  double least_margin = 0.003;  // by which its likeness exceeds every other gesture's
-  double least_log_odds = 0;    // more of them: fewer told wrongly, fewer told
+  // How like a gesture a hand is: the mean g of its five nearest templates, which a bank of many
+  // people's has; or g of the nearest alone.
+  bool several_nearest = false;
+  // Where the wrist is cut, and so the hand's area, is uncertain: rings are tried at these sizes.
+  std::vector<double> sizes{1.0};
+  double least_score = 0.85;   // g of a gesture that is told (the paper's tau is 0.7)
+  double least_margin = 0.01;  // by which its likeness exceeds every other gesture's
+  // Of hand_evidence.hpp, which weighs for banks of few gestures; nothing: not asked.
+  std::optional<double> least_log_odds;
 };
+
+// As fits the templates: whether there are many of each gesture or an example or two, and whether
+// the gestures are a few that were chosen to be told apart, or numerals, which differ by less.
+GestureDetectorOptions options_for(const TemplateSet& set);
 
 // How far a hand that is straight on its forearm is turned from upright, rad clockwise; nothing
 // where no forearm was seen.
@@ -54,6 +65,7 @@ class GestureDetector {
  private:
   // `clutter`: see HandEvidence.
   HandObservation observe(const HandBlob& blob, double clutter) const;
+  bool is_told(const RingMatch& match, const HandEvidence& evidence) const;
   HandObservations observe_all(const std::vector<HandBlob>& blobs, const cv::Mat& skin) const;
 
   GestureDetectorOptions options_;

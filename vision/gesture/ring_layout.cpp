@@ -1,6 +1,7 @@
 #include "vision/gesture/ring_layout.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <numeric>
 
@@ -39,6 +40,16 @@ RingLayout linear_rings(int k) {
   for (int tenths = 2; tenths <= 13; ++tenths) {
     layout.radii.push_back(static_cast<float>(tenths) / 10);
     layout.weights.push_back(static_cast<std::uint8_t>(tenths));
+  }
+  return layout;
+}
+
+RingLayout fine_rings(int k) {
+  RingLayout layout{{}, {}, 2 * k};
+  for (int step = 0; step < kMostRings; ++step) {
+    const float radius = 0.3F + 0.075F * static_cast<float>(step);
+    layout.radii.push_back(radius);
+    layout.weights.push_back(static_cast<std::uint8_t>(std::lround(12 * radius)));
   }
   return layout;
 }

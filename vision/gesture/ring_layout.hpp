@@ -31,4 +31,7 @@ RingLayout doubling_rings(int k = 90);
 // area around it.
 RingLayout linear_rings(int k = 45);
 
+// Sixteen, closer to each other, for hands that differ by little: which finger meets the thumb.
+RingLayout fine_rings(int k = 45);
+
 }  // namespace armsreach::gesture

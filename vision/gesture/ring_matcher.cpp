@@ -162,8 +162,9 @@ RingMatch RingMatcher::match_of(const Nearest& nearest) const {
 
 std::vector<RingMatch> RingMatcher::match(const RingSignature& seen, Hands hands,
                                           const std::optional<double>& straight) const {
-  std::vector<Look> looks{look_at(seen, false, straight)};
-  if (hands == Hands::both) {
+  std::vector<Look> looks;
+  if (hands != Hands::mirrored) looks.push_back(look_at(seen, false, straight));
+  if (hands != Hands::as_learnt) {
     const auto mirrored_straight = straight ? std::optional(-*straight) : std::nullopt;
     looks.push_back(look_at(mirrored(seen, set_.layout), true, mirrored_straight));
   }

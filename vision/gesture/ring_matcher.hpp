@@ -17,7 +17,7 @@
 
 namespace armsreach::gesture {
 
-enum class Hands { as_learnt, both };  // both: also their mirror images
+enum class Hands { as_learnt, mirrored, both };  // mirrored: the other hand of the learnt ones
 
 struct RingMatch {
   int index = -1;         // of the template in its set; -1: no templates

@@ -30,7 +30,7 @@ struct GestureTemplate {
 };
 
 struct TemplateSet {
-  RingLayout layout = linear_rings();
+  RingLayout layout = fine_rings();
   std::vector<GestureTemplate> templates;
 };
 

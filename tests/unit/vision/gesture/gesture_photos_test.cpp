@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "tests/support/recordings.hpp"
 #include "vision/gesture/color_model_yaml.hpp"
@@ -28,7 +29,8 @@ GestureDetector own_detector(const std::string& vocabulary) {
     std::ifstream in(entry.path());
     EXPECT_TRUE(read_templates(in, entry.path().stem().string(), entry.path().string(), &set));
   }
-  return GestureDetector(std::move(set));
+  const GestureDetectorOptions options = options_for(set);
+  return GestureDetector(std::move(set), options);
 }
 
 struct Rates {
@@ -58,8 +60,32 @@ TEST(GesturePhotos, NumeralsOfUnseenPeople) {
   }
   std::cout << "right " << rates.share(rates.right) << ", wrong " << rates.share(rates.wrong)
             << " of " << rates.all << '\n';
+  EXPECT_GE(rates.share(rates.right), 0.93);
+  EXPECT_LE(rates.share(rates.wrong), 0.02);
+}
+
+// People whose number divides by five are in no template. Skin and all, as the program does it.
+// Measured: right 0.970, wrong 0.008; over five such parts of the people, each with templates of
+// the others, about 0.957 and 0.027 (before least_score rose to 0.92).
+TEST(GesturePhotos, PhotographedNumeralsOfUnseenPeople) {
+  ARMSREACH_RECORDING_OR_SKIP(digits, "hands/digits");
+  const std::string path = ARMSREACH_SOURCE_DIR "/assets/skin/default.yaml";
+  std::ifstream in(path);
+  SkinSegmenter skin(*read_color_model(in, path), {.adaptation = SkinOptions::Adaptation::image});
+  const GestureDetector detector = own_detector("asl-digits");
+  Rates rates;
+  for (int numeral = 0; numeral < 10; ++numeral) {
+    for (const auto& entry : fs::directory_iterator(digits / std::to_string(numeral))) {
+      if (std::stoi(entry.path().filename().string()) % 5 != 0) continue;
+      cv::Mat larger;
+      cv::resize(cv::imread(entry.path().string()), larger, {}, 2, 2, cv::INTER_LINEAR);
+      add(detector, skin.segment(larger), std::to_string(numeral), &rates);
+    }
+  }
+  std::cout << "right " << rates.share(rates.right) << ", wrong " << rates.share(rates.wrong)
+            << " of " << rates.all << '\n';
   EXPECT_GE(rates.share(rates.right), 0.95);
-  EXPECT_LE(rates.share(rates.wrong), 0.03);
+  EXPECT_LE(rates.share(rates.wrong), 0.025);
 }
 
 SkinSegmenter own_segmenter() {
