@@ -77,6 +77,12 @@ double clutter_around(std::size_t index, const std::vector<HandBlob>& blobs, con
 // Sampling at eight angles within a step averages out which side of a pixel's edge samples fall on.
 constexpr std::array kPhases{-0.4375, -0.3125, -0.1875, -0.0625, 0.0625, 0.1875, 0.3125, 0.4375};
 
+// The direction of a shape's longest extent, rad, up to half a turn.
+double long_axis(const HandShape& shape) {
+  const cv::Moments m = cv::moments(shape.mask, true);
+  return 0.5 * std::atan2(2 * m.mu11, m.mu20 - m.mu02);
+}
+
 HandShape sized(const HandShape& shape, double size) {
   HandShape other = shape;
   other.area *= size * size;
@@ -102,10 +108,12 @@ Reading read_as(const RingMatcher& matcher, const HandShape& shape, Hands hand,
   return reading;
 }
 
-// A hand is a left or a right one for all gestures alike: a three in a mirror is like a seven.
+// A hand is a left or a right one for all gestures alike: a three in a mirror is like a seven. (Of
+// a bank, hands that look like both are the likelier ones.)
 Reading read(const RingMatcher& matcher, const HandShape& shape,
              const GestureDetectorOptions& options) {
-  if (options.templates != Hands::both) return read_as(matcher, shape, options.templates, options);
+  if (options.templates != Hands::both || options.several_nearest)
+    return read_as(matcher, shape, options.templates, options);
   Reading learnt = read_as(matcher, shape, Hands::as_learnt, options);
   Reading other = read_as(matcher, shape, Hands::mirrored, options);
   return other.best > learnt.best ? other : learnt;
@@ -150,15 +158,29 @@ GestureTemplate template_of(const std::string& gesture, const HandShape& shape,
   return {gesture, signature_of(shape, layout, straight.value_or(0)), straight.has_value()};
 }
 
-double fine_angle(const RingMatcher& matcher, const HandShape& shape, const RingMatch& match) {
+double fine_angle(const RingMatcher& matcher, const HandShape& shape, const RingMatch& match,
+                  double turn) {
   const RingLayout& layout = matcher.set().layout;
   double sum = 0;
   for (const double phase : kPhases) {
-    const double turn = phase * layout.step();
-    const double angle = matcher.angle_of(signature_of(shape, layout, turn), match) + turn;
+    const double more = phase * layout.step();
+    const double angle = matcher.angle_of(signature_of(shape, layout, turn + more), match) + more;
     sum += std::remainder(angle - match.angle, 2 * std::numbers::pi);
   }
-  return std::remainder(match.angle + sum / kPhases.size(), 2 * std::numbers::pi);
+  return std::remainder(turn + match.angle + sum / kPhases.size(), 2 * std::numbers::pi);
+}
+
+double own_angle(const RingMatcher& matcher, const HandShape& shape, const RingMatch& like) {
+  const double turn = long_axis(shape);
+  auto straight = straight_angle(shape);
+  if (straight) *straight -= turn;
+  const auto matches = matcher.match(signature_of(shape, matcher.set().layout, turn),
+                                     like.mirrored ? Hands::mirrored : Hands::as_learnt, straight);
+  const std::string& gesture = matcher.gesture_of(like);
+  const auto same = std::find_if(matches.begin(), matches.end(), [&](const RingMatch& match) {
+    return matcher.gesture_of(match) == gesture;
+  });
+  return fine_angle(matcher, shape, *same, turn);
 }
 
 std::vector<HandBlob> find_hands(const HandFinder& finder, const cv::Mat& skin,
@@ -193,7 +215,7 @@ HandObservation GestureDetector::observe(const HandBlob& blob, double clutter) c
     const RingMatch& match = matches[likeliest.gesture];
     seen.likeliest = matcher_.gestures()[likeliest.gesture];
     seen.score = match.g;
-    seen.angle = fine_angle(matcher_, reading.shape, match);
+    seen.angle = own_angle(matcher_, reading.shape, match);
     const HandEvidence evidence{likeliest.likeness, likeliest.margin, contact_of(blob), clutter};
     if (blob.plausible && is_told(match, evidence)) seen.gesture = seen.likeliest;
   }

@@ -43,9 +43,14 @@ RingSignature signature_of(const HandShape& shape, const RingLayout& layout, dou
 GestureTemplate template_of(const std::string& gesture, const HandShape& shape,
                             const RingLayout& layout);
 
-// The match's angle, finer than the step between samples: turned copies of a hand agree within half
-// a degree.
-double fine_angle(const RingMatcher& matcher, const HandShape& shape, const RingMatch& match);
+// The angle of a match of the shape sampled from `turn` on, finer than the step between samples.
+double fine_angle(const RingMatcher& matcher, const HandShape& shape, const RingMatch& match,
+                  double turn = 0);
+
+// The angle to the template of the same gesture that is nearest when sampling begins at the shape's
+// own longest extent: a turned copy is sampled at the same places, so that it has the same nearest
+// template, and turned copies agree within half a degree whatever the bank.
+double own_angle(const RingMatcher& matcher, const HandShape& shape, const RingMatch& like);
 
 // The blobs of a mask, without the shadow of the hand and, where the largest is no hand, parted
 // from walls, both by `bgr`.
