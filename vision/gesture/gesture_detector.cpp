@@ -12,6 +12,7 @@
 #include "vision/gesture/cast_shadow.hpp"
 #include "vision/gesture/hand_evidence.hpp"
 #include "vision/gesture/hand_separation.hpp"
+#include "vision/gesture/pointing_finger.hpp"
 
 namespace armsreach::gesture {
 namespace {
@@ -219,7 +220,13 @@ HandObservation GestureDetector::observe(const HandBlob& blob, double clutter) c
     const HandEvidence evidence{likeliest.likeness, likeliest.margin, contact_of(blob), clutter};
     if (blob.plausible && is_told(match, evidence)) seen.gesture = seen.likeliest;
   }
-  seen.fingertip = farthest_along(blob.outline, {std::sin(seen.angle), -std::cos(seen.angle)});
+  if (seen.likeliest == "point") {
+    const PointingFinger finger = pointing_finger(reading.shape, seen.angle);
+    seen.angle = finger.angle;
+    seen.fingertip = finger.tip;
+  } else {
+    seen.fingertip = farthest_along(blob.outline, {std::sin(seen.angle), -std::cos(seen.angle)});
+  }
   return seen;
 }
 
