@@ -205,6 +205,10 @@ Status make_general(const CalibrateSkinOptions& options) {
     return Error{"cannot be opened", options.pixels, "give a CSV file b,g,r,label"};
   std::vector<ColorExamples> sets(1);
   if (auto status = gesture::add_pixel_list(in, options.pixels, &sets[0]); !status) return status;
+  if (sets[0].inside.empty() && sets[0].outside.empty()) {
+    return Error{"has no lines of pixels", options.pixels,
+                 "lines are b,g,r,label: levels 0-255, then 1 for skin or 2 for other things"};
+  }
   if (!options.pictures.empty()) {
     ColorModel nothing;
     nothing.classes.push_back({gesture::kSkin, {}});

@@ -198,6 +198,11 @@ TEST(EndToEndColors, BadInputIsExplained) {
   EXPECT_THAT(complaint({"detect", "colours", folder / "plain.png", "--classes",
                          folder / "classes.yaml", "--json", folder / "x.json"}),
               HasSubstr("not readable as YAML"));
+  write_text(folder / "text.txt", "hello\n");
+  EXPECT_THAT(complaint({"calibrate", "skin", "--pixels", folder / "text.txt", "--out", out}),
+              HasSubstr("text.txt: has no lines of pixels"));
+  EXPECT_THAT(complaint({"calibrate", "skin", folder / "mistyped.png", "--out", out}),
+              HasSubstr("mistyped.png: is not there"));
   EXPECT_FALSE(fs::exists(out));
 }
 
