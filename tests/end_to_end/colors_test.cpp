@@ -159,6 +159,14 @@ TEST(EndToEndColors, ModelsOfSkinAndOfThingsAreNotTakenForEachOther) {
               HasSubstr("model of skin, not of things"));
   EXPECT_THAT(complaint({"learn", "colour", "ball", thing, "--classes", skin}),
               HasSubstr("model of skin, not of things"));
+  const auto run_with = [&](const std::string& gesture) {
+    write_text(folder / "config.yaml", "gesture: {" + gesture + "}\n");
+    return complaint({"run", "--source", "images:" + folder.path().string(), "--experience",
+                      "wearable", "--display", "none", "--frames", "1", "--config",
+                      folder / "config.yaml"});
+  };
+  EXPECT_THAT(run_with("skin: " + things), HasSubstr("has no class 'skin'"));
+  EXPECT_THAT(run_with("colours: " + skin), HasSubstr("model of skin, not of things"));
   const std::string before = read_text(things);
   EXPECT_THAT(complaint({"learn", "colour", "", thing, "--classes", things}),
               HasSubstr("has no name"));
