@@ -39,6 +39,7 @@ Result<cv::Mat> read_any_mask(const fs::path& file) {
 Result<std::vector<fs::path>> list_pictures(const std::vector<std::string>& places) {
   std::vector<fs::path> files;
   for (const std::string& place : places) {
+    if (!file_exists(place)) return Error{"is not there", place, "check the path"};
     if (!folder_exists(place)) {
       files.emplace_back(place);
       continue;
@@ -52,7 +53,11 @@ Result<std::vector<fs::path>> list_pictures(const std::vector<std::string>& plac
 
 Result<cv::Mat> read_picture(const fs::path& file) {
   auto picture = read_color_image(file);
-  if (!picture || picture->type() == CV_8UC3) return picture;
+  if (!picture) {
+    return Error{picture.error().what, file.string(),
+                 "give whole pictures: JPEG, PNG, PGM, PPM and BMP are read"};
+  }
+  if (picture->type() == CV_8UC3) return picture;
   return Error{"is a grey picture, which has no colours", file.string(), "give a colour picture"};
 }
 
@@ -86,13 +91,25 @@ Result<gesture::ColorModel> read_model_file(const std::string& path) {
   return gesture::read_color_model(in, path);
 }
 
+Result<gesture::ColorModel> things_model(const std::string& path) {
+  auto model = read_model_file(path);
+  if (!model || gesture::class_named(*model, gesture::kSkin) < 0) return model;
+  return Error{"is a model of skin, not of things", path, "give a file written by `learn colour`"};
+}
+
 Status write_model_file(const std::string& path, const gesture::ColorModel& model) {
-  return write_file(path, [&](std::ostream& out) { gesture::write_color_model(out, model); });
+  std::stringstream text;
+  gesture::write_color_model(text, model);
+  if (auto again = gesture::read_color_model(text, path); !again) return again.error();
+  return write_file(path, [&](std::ostream& out) { out << text.str(); });
 }
 
 Result<gesture::ColorModel> skin_model(const std::string& path) {
-  const bool built_in = path.empty() || path == "simulated";
-  if (!built_in || file_exists(path)) return read_model_file(path);
+  if (!path.empty() && path != "simulated") {
+    auto model = read_model_file(path);
+    if (!model || gesture::class_named(*model, gesture::kSkin) >= 0) return model;
+    return Error{"has no class 'skin'", path, "give a file written by `calibrate skin`"};
+  }
   const std::string name = path.empty() ? "skin/default.yaml" : "skin/simulated.yaml";
   std::istringstream in{std::string(render::asset(name))};
   return gesture::read_color_model(in, name);

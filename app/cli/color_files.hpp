@@ -25,11 +25,15 @@ Result<cv::Mat> read_picture(const std::filesystem::path& file);
 Result<cv::Mat> read_mask_of(const std::filesystem::path& picture, const std::string& folder,
                              const cv::Size& size, const std::optional<int>& value);
 
+// Of skin or of things.
 Result<gesture::ColorModel> read_model_file(const std::string& path);
+// Of things that `learn colour` taught; a model of skin is an error.
+Result<gesture::ColorModel> things_model(const std::string& path);
+// What could not be read again is not written.
 Status write_model_file(const std::string& path, const gesture::ColorModel& model);
 
-// The file's; the program's own of people where `path` is empty, and of simulated hands where it is
-// "simulated".
+// The file's, which must know skin; the program's own of people where `path` is empty, and of
+// simulated hands where it is "simulated" (a file of that name is "./simulated").
 Result<gesture::ColorModel> skin_model(const std::string& path);
 
 }  // namespace armsreach::app

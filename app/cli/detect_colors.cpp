@@ -32,7 +32,7 @@ nlohmann::json json_from_blobs(const gesture::ColorBlobs& blobs) {
 }
 
 Status detect(const DetectColorsOptions& options) {
-  auto model = read_model_file(options.classes);
+  auto model = things_model(options.classes);
   if (!model) return model.error();
   auto files = list_pictures(options.pictures);
   if (!files) return files.error();

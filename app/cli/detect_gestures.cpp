@@ -50,10 +50,9 @@ Status detect(const DetectGesturesOptions& options) {
   const gesture::GestureDetector detector(std::move(*templates), how);
   nlohmann::json all = nlohmann::json::array();
   const auto status =
-      for_hand_pictures(options.places, options.skin, [&](const HandPicture& picture) -> Status {
+      for_readable_hand_pictures(options.places, options.skin, [&](const HandPicture& picture) {
         for (const auto& hand : detector.detect(picture.skin, picture.bgr))
           all.push_back(json_from_hand(picture, hand));
-        return ok();
       });
   if (!status) return status;
   return write_file(options.json, [&](std::ostream& out) { out << all.dump(1) << "\n"; });
@@ -64,7 +63,7 @@ Status detect(const DetectGesturesOptions& options) {
 void add_detect_gestures(CLI::App& detect_verb, Task* task) {
   CLI::App* command = detect_verb.add_subcommand("gestures", "hands and their gestures");
   auto o = std::make_shared<DetectGesturesOptions>();
-  command->add_option("places", o->places, "images, videos, or folders of images")->required();
+  command->add_option("places", o->places, "images, videos, or folders of them")->required();
   command->add_option("--templates", o->templates,
                       "folder that `learn gesture` wrote; without it the program's own");
   command->add_option("--vocabulary", o->vocabulary, "the program knows wearable and asl-digits")

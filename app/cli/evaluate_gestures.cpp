@@ -89,10 +89,27 @@ void judge(const gesture::HandObservation* hand, const std::string& truth, Evalu
   sum->first_right += hand != nullptr && hand->likeliest == truth ? 1 : 0;
 }
 
-void score(const gesture::HandObservation* hand, const std::string& truth, Scores* scores) {
-  if (hand == nullptr) return;
-  for (const auto& [name, g] : hand->scores)
-    (name == truth ? scores->there : scores->not_there).push_back(g);
+// Where no hand was found, no gesture was: the least g there is.
+void score(const gesture::HandObservation* hand, const std::string& truth,
+           const std::vector<std::string>& gestures, Scores* scores) {
+  constexpr double kLeast = -1;
+  for (const std::string& name : gestures) {
+    (name == truth ? scores->there : scores->not_there)
+        .push_back(hand != nullptr ? hand->scores.at(name) : kLeast);
+  }
+}
+
+// A class that no template stands for would be judged wrong whatever is said.
+Status check_known(const std::vector<fs::path>& classes, const std::vector<std::string>& gestures) {
+  std::string known;
+  for (const std::string& name : gestures) known += ' ' + name;
+  for (const fs::path& folder : classes) {
+    const std::string name = folder.filename().string();
+    if (std::find(gestures.begin(), gestures.end(), name) != gestures.end()) continue;
+    return Error{"'" + name + "' is no gesture of the templates", folder.string(),
+                 "they know" + known + "; give another --vocabulary or take the folder away"};
+  }
+  return ok();
 }
 
 // The folders of classes below those given.
@@ -171,6 +188,7 @@ Status evaluate(const EvaluateGesturesOptions& options) {
   auto classes = class_folders(options.folders);
   if (!classes) return classes.error();
   const auto detectors = detectors_over_k(*templates);
+  if (auto known = check_known(*classes, detectors[0].matcher().gestures()); !known) return known;
   Evaluation evaluation;
   evaluation.over_k.resize(detectors.size());
   for (const fs::path& folder : *classes) {
@@ -181,7 +199,7 @@ Status evaluate(const EvaluateGesturesOptions& options) {
             const auto hands = detectors[i].detect(picture.skin, picture.bgr);
             const auto* hand = spoken_for(hands);
             if (i == 0) judge(hand, truth, &evaluation);
-            score(hand, truth, &evaluation.over_k[i]);
+            score(hand, truth, detectors[i].matcher().gestures(), &evaluation.over_k[i]);
           }
           return ok();
         });

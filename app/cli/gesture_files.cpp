@@ -57,27 +57,41 @@ bool is_plain_name(const std::string& name) {
   return !name.empty() && name[0] != '.' && name.find_first_of("/\\") == std::string::npos;
 }
 
-}  // namespace
-
-Result<gesture::TemplateSet> load_templates(const std::string& folder,
-                                            const std::string& vocabulary) {
-  if (folder.empty()) return own_templates(vocabulary);
-  const fs::path place = fs::path(folder) / vocabulary;
+// All of a folder, in order of gestures' names; none where there is no folder.
+Result<gesture::TemplateSet> templates_in(const fs::path& place) {
   std::vector<fs::path> files;
   std::error_code failure;
-  for (const auto& entry : fs::directory_iterator(place, failure)) {
-    if (entry.path().extension() == kExtension) files.push_back(entry.path());
+  for (fs::directory_iterator entry(place, failure), end; !failure && entry != end;
+       entry.increment(failure)) {
+    if (entry->path().extension() == kExtension) files.push_back(entry->path());
   }
   std::sort(files.begin(), files.end());
   gesture::TemplateSet set;
   for (const fs::path& file : files) {
     if (auto status = read_file(file, &set); !status) return status.error();
   }
-  if (set.templates.empty()) {
+  return set;
+}
+
+}  // namespace
+
+Result<gesture::TemplateSet> load_templates(const std::string& folder,
+                                            const std::string& vocabulary) {
+  if (folder.empty()) return own_templates(vocabulary);
+  const fs::path place = fs::path(folder) / vocabulary;
+  auto set = templates_in(place);
+  if (set && set->templates.empty()) {
     return Error{"holds no templates of gestures", place.string(),
                  "learn some with `armsreach learn gesture NAME IMAGE --templates " + folder + "`"};
   }
   return set;
+}
+
+Result<std::optional<gesture::RingLayout>> layout_in(const std::string& folder,
+                                                     const std::string& vocabulary) {
+  auto set = templates_in(fs::path(folder) / vocabulary);
+  if (!set) return set.error();
+  return set->templates.empty() ? std::nullopt : std::optional(set->layout);
 }
 
 Status add_to_templates(const std::string& folder, const std::string& vocabulary,
@@ -87,18 +101,18 @@ Status add_to_templates(const std::string& folder, const std::string& vocabulary
       return Error{"cannot be the name of a file", name, "give a name without slashes"};
   }
   const fs::path place = fs::path(folder) / vocabulary;
+  auto known = templates_in(place);
+  if (!known) return known.error();
+  gesture::TemplateSet& all = *known;
+  if (all.templates.empty()) all.layout = added.layout;
+  if (!(all.layout == added.layout)) {
+    return Error{"holds templates of another layout: " + gesture::text_of(all.layout) +
+                     "; these have " + gesture::text_of(added.layout),
+                 place.string(), "give another --templates folder, or its --rings"};
+  }
   std::error_code failure;
   fs::create_directories(place, failure);
   const fs::path file = place / (gesture + kExtension);
-  gesture::TemplateSet all;
-  all.layout = added.layout;
-  if (file_exists(file)) {
-    if (auto status = read_file(file, &all); !status) return status;
-  }
-  if (!(all.layout == added.layout)) {
-    return Error{"holds templates of another layout of rings", file.string(),
-                 "give another folder, or remove the file"};
-  }
   all.templates.insert(all.templates.end(), added.templates.begin(), added.templates.end());
   return write_file(file.string(),
                     [&](std::ostream& out) { gesture::write_templates(out, gesture, all); });

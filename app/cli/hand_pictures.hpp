@@ -25,9 +25,16 @@ struct SkinSource {
   std::string masks;  // folder of masks that take the place of segmentation; empty: none
 };
 
-// Calls `look` with each in turn, until one returns an error. A folder's images go by name; images
-// that stand for a mask (*.mask.png) are left out.
+using Look = std::function<Status(const HandPicture&)>;
+
+// Calls `look` with each in turn, until one cannot be read or `look` returns an error. A folder's
+// images and videos go by name; images that stand for a mask (*.mask.png) are left out.
 Status for_hand_pictures(const std::vector<std::string>& places, const SkinSource& skin,
-                         const std::function<Status(const HandPicture&)>& look);
+                         const Look& look);
+
+// The same, but what cannot be read is left out with a warning, and an error only where nothing
+// can.
+Status for_readable_hand_pictures(const std::vector<std::string>& places, const SkinSource& skin,
+                                  const std::function<void(const HandPicture&)>& look);
 
 }  // namespace armsreach::app

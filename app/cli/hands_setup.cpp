@@ -86,7 +86,7 @@ Result<HandDetectors> make_detectors(const GestureConfig& config, bool show_ring
   if (!templates) return templates.error();
   std::optional<gesture::ColorModel> colors;
   if (!config.colours.empty()) {
-    auto model = read_model_file(config.colours);
+    auto model = things_model(config.colours);
     if (!model) return model.error();
     colors = *std::move(model);
   }

@@ -73,11 +73,13 @@ void add(const cv::Mat& bgr, const cv::Mat& thing, gesture::ColorExamples* examp
 }
 
 Status learn(const LearnColorOptions& options) {
+  if (options.name == gesture::kSkin)
+    return Error{"is the name of skin itself", options.name, "`calibrate skin` learns skin"};
   auto region = read_region(options.region);
   if (!region) return region.error();
   gesture::ColorModel model;
   if (file_exists(options.classes)) {
-    auto known = read_model_file(options.classes);
+    auto known = things_model(options.classes);
     if (!known) return known.error();
     model = *known;
   }
@@ -94,9 +96,10 @@ Status learn(const LearnColorOptions& options) {
   auto more = gesture::taught(model, options.name, examples, "colour '" + options.name + "'");
   if (!more) return more.error();
   if (auto status = write_model_file(options.classes, *more); !status) return status;
-  std::printf("%s: %.0f pixels of %zu pictures; %zu classes in %s\n", options.name.c_str(),
-              examples.inside.count(), files->size(), more->classes.size(),
-              options.classes.c_str());
+  const auto plural = [](std::size_t count, const char* many) { return count == 1 ? "" : many; };
+  std::printf("%s: %.0f pixels of %zu picture%s; %zu class%s in %s\n", options.name.c_str(),
+              examples.inside.count(), files->size(), plural(files->size(), "s"),
+              more->classes.size(), plural(more->classes.size(), "es"), options.classes.c_str());
   return ok();
 }
 

@@ -12,16 +12,31 @@
 namespace armsreach::app {
 namespace {
 
+constexpr const char* kPaperRings = "paper";
+constexpr const char* kLinearRings = "linear";
+
 struct LearnGestureOptions {
   std::string name;
   std::vector<std::string> pictures;
   std::string templates;
   std::string vocabulary = "wearable";
+  std::string rings;
   SkinSource skin;
 };
 
+// As asked for; else the folder's own, so that its templates stay comparable.
+Result<gesture::RingLayout> layout_for(const LearnGestureOptions& options) {
+  if (options.rings == kPaperRings) return gesture::doubling_rings();
+  if (options.rings == kLinearRings) return gesture::linear_rings();
+  auto layout = layout_in(options.templates, options.vocabulary);
+  if (!layout) return layout.error();
+  return layout->value_or(gesture::linear_rings());
+}
+
 Status learn(const LearnGestureOptions& options) {
-  gesture::TemplateSet learnt;
+  auto layout = layout_for(options);
+  if (!layout) return layout.error();
+  gesture::TemplateSet learnt{*layout, {}};
   const gesture::HandFinder finder;
   const auto status =
       for_hand_pictures(options.pictures, options.skin, [&](const HandPicture& picture) -> Status {
@@ -55,6 +70,11 @@ void add_learn_gesture(CLI::App& learn_verb, Task* task) {
   command->add_option("--templates", o->templates, "folder to add it to")->required();
   command->add_option("--vocabulary", o->vocabulary, "the gestures it is told apart from")
       ->capture_default_str();
+  command
+      ->add_option("--rings", o->rings,
+                   "paper: five, radii doubling, 180 samples; linear: twelve at equal distances, "
+                   "90 samples [those of the folder, else linear]")
+      ->check(CLI::IsMember({kPaperRings, kLinearRings}));
   command->add_option("--skin", o->skin.model, "skin model, from `calibrate skin`");
   command->add_option("--masks", o->skin.masks, "folder of masks of the hands, PNG by name");
   command->callback([task, o] { *task = [o] { return learn(*o); }; });

@@ -94,7 +94,7 @@ TEST(EndToEndColors, ToysAreNamedInOtherShots) {
   EXPECT_GE(right, 38) << "of 40";  // 95 %
 }
 
-TEST(EndToEndColors, SkinIsCalibratedWithAndWithoutMasksAndLive) {
+TEST(EndToEndColors, SkinIsCalibratedWithAndWithoutMasks) {
   TemporaryFolder folder;
   cv::Mat bgr(240, 320, CV_8UC3), mask = cv::Mat::zeros(240, 320, CV_8UC1);
   cv::RNG random(5);
@@ -113,10 +113,66 @@ TEST(EndToEndColors, SkinIsCalibratedWithAndWithoutMasksAndLive) {
     // Two plain colours: nothing can be confused.
     EXPECT_THAT(result.output, HasSubstr("from 1 view, F1 1.000"));
   }
-  const auto live =
-      run_armsreach({"calibrate", "skin", "--source", "images:" + folder.path().string(), "--model",
-                     folder / "skin.yaml", "--out", folder / "live.yaml"});
-  EXPECT_EQ(live.exit_code, 0) << live.output;
+}
+
+TEST(EndToEndColors, ALiveViewTeachesSkinOnlyWhereThereIsAHand) {
+  ARMSREACH_RECORDING_OR_SKIP(hand, "hands/video/count.mp4");
+  ARMSREACH_RECORDING_OR_SKIP(kitchen, "rgbd/redkitchen");
+  TemporaryFolder folder;
+  const auto calibrated = [&](const std::string& source) {
+    return run_armsreach(
+        {"calibrate", "skin", "--source", source, "--frames", "40", "--out", folder / "skin.yaml"});
+  };
+  const auto refused = calibrated("tum:" + kitchen.string());  // wooden cupboards
+  EXPECT_EQ(refused.exit_code, 2) << refused.output;
+  EXPECT_THAT(refused.output, HasSubstr("hardly ever a hand"));
+  EXPECT_FALSE(fs::exists(folder / "skin.yaml"));
+  const auto learnt = calibrated("video:" + hand.string());
+  EXPECT_EQ(learnt.exit_code, 0) << learnt.output;
+  EXPECT_THAT(learnt.output, HasSubstr("which is no truth"));
+}
+
+TEST(EndToEndColors, ModelsOfSkinAndOfThingsAreNotTakenForEachOther) {
+  TemporaryFolder folder;
+  const std::string thing = folder / "thing.png", things = folder / "things.yaml",
+                    skin = folder / "skin.yaml", json = folder / "found.json";
+  cv::imwrite(thing, picture({30, 30, 220}, {100, 100}));
+  write_text(folder / "pixels.csv", [] {
+    std::string lines;
+    for (int i = 0; i < 60; ++i) lines += "120,150,205,1\n70,110,60,2\n";
+    return lines;
+  }());
+  const auto taught = run_armsreach({"learn", "colour", "ball", thing, "--classes", things});
+  ASSERT_EQ(taught.exit_code, 0) << taught.output;
+  EXPECT_THAT(taught.output, HasSubstr("1 picture; 1 class in"));
+  ASSERT_EQ(run_armsreach({"calibrate", "skin", "--pixels", folder / "pixels.csv", "--out", skin})
+                .exit_code,
+            0);
+  const auto complaint = [&](const std::vector<std::string>& command) {
+    const auto result = run_armsreach(command);
+    EXPECT_EQ(result.exit_code, 2) << result.output;
+    return result.output;
+  };
+  EXPECT_THAT(complaint({"detect", "gestures", thing, "--skin", things, "--json", json}),
+              HasSubstr("has no class 'skin'"));
+  EXPECT_THAT(complaint({"detect", "colours", thing, "--classes", skin, "--json", json}),
+              HasSubstr("model of skin, not of things"));
+  EXPECT_THAT(complaint({"learn", "colour", "ball", thing, "--classes", skin}),
+              HasSubstr("model of skin, not of things"));
+  const auto run_with = [&](const std::string& gesture) {
+    write_text(folder / "config.yaml", "gesture: {" + gesture + "}\n");
+    return complaint({"run", "--source", "images:" + folder.path().string(), "--experience",
+                      "wearable", "--display", "none", "--frames", "1", "--config",
+                      folder / "config.yaml"});
+  };
+  EXPECT_THAT(run_with("skin: " + things), HasSubstr("has no class 'skin'"));
+  EXPECT_THAT(run_with("colours: " + skin), HasSubstr("model of skin, not of things"));
+  const std::string before = read_text(things);
+  EXPECT_THAT(complaint({"learn", "colour", "", thing, "--classes", things}),
+              HasSubstr("has no name"));
+  EXPECT_THAT(complaint({"learn", "colour", "skin", thing, "--classes", things}),
+              HasSubstr("name of skin itself"));
+  EXPECT_EQ(read_text(things), before);
 }
 
 TEST(EndToEndColors, BadInputIsExplained) {
@@ -150,6 +206,11 @@ TEST(EndToEndColors, BadInputIsExplained) {
   EXPECT_THAT(complaint({"detect", "colours", folder / "plain.png", "--classes",
                          folder / "classes.yaml", "--json", folder / "x.json"}),
               HasSubstr("not readable as YAML"));
+  write_text(folder / "text.txt", "hello\n");
+  EXPECT_THAT(complaint({"calibrate", "skin", "--pixels", folder / "text.txt", "--out", out}),
+              HasSubstr("text.txt: has no lines of pixels"));
+  EXPECT_THAT(complaint({"calibrate", "skin", folder / "mistyped.png", "--out", out}),
+              HasSubstr("mistyped.png: is not there"));
   EXPECT_FALSE(fs::exists(out));
 }
 

@@ -56,12 +56,6 @@ bool read_template(const std::string& line, const RingLayout& layout, GestureTem
   return (words >> std::ws).eof();
 }
 
-std::string text_of(const RingLayout& layout) {
-  std::ostringstream text;
-  text << layout.rings() << " rings of " << layout.samples << " samples";
-  return text.str();
-}
-
 // The shortest text that is read as the same number.
 std::string shortest(float value) {
   std::array<char, 32> text;
@@ -69,11 +63,28 @@ std::string shortest(float value) {
   return {text.data(), end};
 }
 
+std::string radii_of(const RingLayout& layout) {
+  std::string text;
+  for (const float radius : layout.radii) text += ' ' + shortest(radius);
+  return text;
+}
+
+std::string weights_of(const RingLayout& layout) {
+  std::string text;
+  for (const int weight : layout.weights) text += ' ' + std::to_string(weight);
+  return text;
+}
+
 Error broken(const std::string& what, const std::string& where) {
-  return {what, where, "learn it again with `armsreach learn gesture`"};
+  return {what, where, "remove it and learn it again with `armsreach learn gesture`"};
 }
 
 }  // namespace
+
+std::string text_of(const RingLayout& layout) {
+  return std::to_string(layout.rings()) + " rings of " + std::to_string(layout.samples) +
+         " samples, radii" + radii_of(layout) + ", weights" + weights_of(layout);
+}
 
 Status read_templates(std::istream& in, const std::string& gesture, const std::string& where,
                       TemplateSet* set) {
@@ -101,11 +112,9 @@ Status read_templates(std::istream& in, const std::string& gesture, const std::s
 
 void write_templates(std::ostream& out, const std::string& gesture, const TemplateSet& set) {
   const RingLayout& layout = set.layout;
-  out << kFormat << "\nsamples " << layout.samples << "\nradii";
-  for (const float radius : layout.radii) out << ' ' << shortest(radius);
-  out << "\nweights";
-  for (const int weight : layout.weights) out << ' ' << weight;
-  out << '\n' << std::hex << std::setfill('0');
+  out << kFormat << "\nsamples " << layout.samples << "\nradii" << radii_of(layout) << "\nweights"
+      << weights_of(layout) << '\n'
+      << std::hex << std::setfill('0');
   for (const GestureTemplate& one : set.templates) {
     if (one.gesture != gesture) continue;
     out << (one.upright ? kUpright : kFree);

@@ -34,6 +34,9 @@ struct TemplateSet {
   std::vector<GestureTemplate> templates;
 };
 
+// "12 rings of 90 samples, radii 0.2 0.3 ..., weights 2 3 ..."
+std::string text_of(const RingLayout& layout);
+
 // Adds the templates of a file to the set. The first file to an empty set brings its layout; any
 // other must have the same. `where` names the stream in errors.
 Status read_templates(std::istream& in, const std::string& gesture, const std::string& where,

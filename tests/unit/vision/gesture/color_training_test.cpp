@@ -35,6 +35,9 @@ TEST(ColorTraining, RefusesToLearnFromNothing) {
   EXPECT_THAT(model.error().message(), HasSubstr("no more than 0 pixels"));
   EXPECT_FALSE(fitted_skin_model(general_model(), examples, "a.png").ok());
   EXPECT_FALSE(taught({}, "ball", examples, "a.png").ok());
+  const auto nameless = taught({}, "", examples, "a.png");
+  ASSERT_FALSE(nameless.ok());
+  EXPECT_THAT(nameless.error().what, HasSubstr("no name"));
 }
 
 TEST(ColorTraining, ReadsListsOfPixels) {
