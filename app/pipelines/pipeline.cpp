@@ -127,7 +127,7 @@ void Pipeline::join_parts(SavedWorld world) {
   if (!options_.hands) return connect_tracked(to_compose_, without_hands);
   wearable_ = std::make_unique<WearablePart>(
       context_, *options_.hands, sensor.color_camera ? *sensor.color_camera : sensor.camera(),
-      gimbal, log_);
+      gimbal, mono_ ? up_in_world(*options_.mono) : Eigen::Vector3d(Eigen::Vector3d::Zero()), log_);
   connect_tracked(wearable_->input(), [](const TrackedFramePtr& tracked) { return tracked; });
   wearable_->outlet().connect(to_compose_, [](const HandsOutput& output) { return output.seen; });
   if (mono_) mono_->look_out_for_hands(wearable_->outlet());
@@ -181,13 +181,14 @@ void Pipeline::join_composing(const std::vector<SavedObject>& objects) {
   composing_ = std::make_unique<ComposingNode>(
       std::move(composer), [this] { return take_composing(); }, context_.fault);
   composing_->outlet().connect(scenes_);
+  if (wearable_) wearable_->look_at_objects(composing_->outlet());
   composing_->at_end([this] {
     to_compose_->close();
     if (workspace_) workspace_->close_composing();
     if (mono_) mono_->close_composing();
+    composing_->outlet().close();
     if (wearable_) wearable_->close_composing();
     user_.connection()->close();
-    scenes_->close();
   });
 }
 
