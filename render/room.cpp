@@ -108,10 +108,11 @@ std::optional<AlignedBox3d> scene_bounds(const Scene& scene, const RoomFromWorld
   for (const VirtualObject& object : scene.objects)
     box.extend(room * object.world_from_object.translation());
   if (box.isEmpty()) return std::nullopt;
-  // Nothing smaller than a chair fills the view.
+  // Nothing smaller than a chair fills the view; a few points need some room around them.
   const Vector3d centre = box.center();
-  const Vector3d half = (0.5 * box.sizes()).cwiseMax(0.25);
-  return AlignedBox3d(Vector3d(centre - half), Vector3d(centre + half));
+  const Vector3d half = (scene.points.empty() ? 0.5 : 0.65) * box.sizes();
+  const Vector3d least = half.cwiseMax(0.25);
+  return AlignedBox3d(Vector3d(centre - least), Vector3d(centre + least));
 }
 
 void Framing::follow(const AlignedBox3d& bounds, double time) {

@@ -58,8 +58,10 @@ GazeSettings settings_for(const Eigen::Vector3d& up_in_world) {
 }  // namespace
 
 GazeStage::GazeStage(const GazeConfig& config, const GimbalModel& model, const Camera& camera,
-                     const Eigen::Vector3d& up_in_world)
-    : config_(config), controller_(model, camera, settings_for(up_in_world)) {
+                     const Eigen::Vector3d& up_in_world, double delay)
+    : config_(config),
+      delay_(timestamp_from_seconds(delay)),
+      controller_(model, camera, settings_for(up_in_world)) {
   if (config.mode == "follow") controller_.follow(config.target);
 }
 
@@ -67,14 +69,14 @@ GazeOutput GazeStage::process(const GazeStageInput& input) {
   if (!input.seen.tracked) return {};
   const TrackedFrame& tracked = *input.seen.tracked;
   GazeInput news;
-  news.now = tracked.frame->time;
+  const Timestamp taken = tracked.frame->time;
+  news.now = taken + delay_;
   news.gimbal = input.gimbal;
-  if (pose_known(tracked)) news.pose = CameraPoseSeen{news.now, tracked.world_from_camera};
+  if (pose_known(tracked)) news.pose = CameraPoseSeen{taken, tracked.world_from_camera};
   if (config_.mode == "saccade" || config_.mode == "fixate") {
     aim(input);
   } else if (input.seen.hands) {
-    if (const auto pixel = target(*input.seen.hands))
-      news.target = TargetSeen{news.now, *pixel, {}};
+    if (const auto pixel = target(*input.seen.hands)) news.target = TargetSeen{taken, *pixel, {}};
   }
   GazeOutput out;
   out.command = std::make_shared<GimbalCommand>(controller_.step(news));

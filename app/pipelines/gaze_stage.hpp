@@ -32,9 +32,10 @@ struct GazeOutput {
 
 class GazeStage final : public Stage<GazeStageInput, GazeOutput> {
  public:
-  // `camera` is the one whose pixels hands are seen in; `up_in_world` is zero where nobody knows.
+  // `camera` is the one whose pixels hands are seen in; `up_in_world` is zero where nobody knows;
+  // `delay` [s] is how long after its frame a command will be given.
   GazeStage(const GazeConfig& config, const GimbalModel& model, const Camera& camera,
-            const Eigen::Vector3d& up_in_world = Eigen::Vector3d::Zero());
+            const Eigen::Vector3d& up_in_world, double delay);
   std::string name() const override { return "gaze"; }
   GazeOutput process(const GazeStageInput& input) override;
 
@@ -45,6 +46,7 @@ class GazeStage final : public Stage<GazeStageInput, GazeOutput> {
 
   GazeConfig config_;
   std::optional<Eigen::Vector3d> aimed_at_;  // in the world
+  Timestamp delay_;
   GazeController controller_;
 };
 

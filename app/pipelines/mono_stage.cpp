@@ -104,11 +104,13 @@ cv::Mat MonoStage::first_depth(const Frame& frame) const {
   return registered_depth(frame.depth, camera, camera_, color_from_depth_);
 }
 
-// Nothing is mapped where hands are, or may have moved to.
+// Nothing is mapped where hands are, or may have moved to. What shows no gesture may as well be
+// wood or a wall, which is where the points are.
 cv::Mat MonoStage::without_hands(const HandsState& hands, const Frame& frame) const {
   std::vector<std::vector<cv::Point>> outlines;
   const double scale = static_cast<double>(camera_.width) / frame.color.cols;
   for (const gesture::Hand& hand : hands.hands) {
+    if (hand.gesture.empty()) continue;
     std::vector<cv::Point> outline;
     for (const cv::Point& p : hand.seen.outline)
       outline.emplace_back(cvRound(scale * p.x), cvRound(scale * p.y));

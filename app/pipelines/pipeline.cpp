@@ -126,8 +126,8 @@ void Pipeline::join_parts(SavedWorld world) {
   }
   if (!options_.hands) return connect_tracked(to_compose_, without_hands);
   wearable_ = std::make_unique<WearablePart>(
-      context_, *options_.hands, sensor.color_camera ? *sensor.color_camera : sensor.camera(),
-      gimbal, mono_ ? up_in_world(*options_.mono) : Eigen::Vector3d(Eigen::Vector3d::Zero()), log_);
+      context_, *options_.hands, sensor, gimbal,
+      mono_ ? up_in_world(*options_.mono) : Eigen::Vector3d(Eigen::Vector3d::Zero()), log_);
   connect_tracked(wearable_->input(), [](const TrackedFramePtr& tracked) { return tracked; });
   wearable_->outlet().connect(to_compose_, [](const HandsOutput& output) { return output.seen; });
   if (mono_) mono_->look_out_for_hands(wearable_->outlet());

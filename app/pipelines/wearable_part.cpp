@@ -5,7 +5,7 @@
 
 namespace armsreach::app {
 
-WearablePart::WearablePart(const PartContext& context, HandsSetup setup, const Camera& camera,
+WearablePart::WearablePart(const PartContext& context, HandsSetup setup, const SensorInfo& sensor,
                            std::shared_ptr<Gimbal> gimbal, const Eigen::Vector3d& up_in_world,
                            EventLog& log)
     : context_(context),
@@ -20,7 +20,7 @@ WearablePart::WearablePart(const PartContext& context, HandsSetup setup, const C
   hands_ = std::make_unique<HandsNode>(
       std::make_unique<HandsStage>(std::move(setup)), [this] { return frames_->pop(); },
       context_.fault);
-  if (gimbal_) join_gaze(camera, up_in_world);
+  if (gimbal_) join_gaze(sensor, up_in_world);
   hands_->outlet().connect(hand_news_.connection(),
                            [](const HandsOutput& output) { return output.news; });
   hands_->at_end([this] {
@@ -29,9 +29,18 @@ WearablePart::WearablePart(const PartContext& context, HandsSetup setup, const C
   });
 }
 
-void WearablePart::join_gaze(const Camera& camera, const Eigen::Vector3d& up_in_world) {
+// From a frame to the command that comes of it: lock-step that is certain, live it is what a
+// picture and its stages take.
+double WearablePart::command_delay(double rate) const {
+  constexpr double kLive = 0.05;  // s
+  return context_.wiring.pace == Pace::live ? kLive : (context_.config.lag - 1) / rate;
+}
+
+void WearablePart::join_gaze(const SensorInfo& sensor, const Eigen::Vector3d& up_in_world) {
   gaze_ = std::make_unique<GazeNode>(
-      std::make_unique<GazeStage>(context_.config.gaze, gimbal_->model(), camera, up_in_world),
+      std::make_unique<GazeStage>(context_.config.gaze, gimbal_->model(),
+                                  sensor.color_camera ? *sensor.color_camera : sensor.camera(),
+                                  up_in_world, command_delay(sensor.rate)),
       [this]() -> std::optional<GazeStageInput> {
         auto seen = to_gaze_->pop();
         if (!seen) return std::nullopt;

@@ -23,7 +23,7 @@ namespace armsreach::app {
 class WearablePart {
  public:
   // `gimbal` carries the sensor; null where none does. `up_in_world` is zero where nobody knows.
-  WearablePart(const PartContext& context, HandsSetup setup, const Camera& camera,
+  WearablePart(const PartContext& context, HandsSetup setup, const SensorInfo& sensor,
                std::shared_ptr<Gimbal> gimbal, const Eigen::Vector3d& up_in_world, EventLog& log);
 
   const std::shared_ptr<Connection<TrackedFramePtr>>& input() const { return frames_; }
@@ -46,7 +46,8 @@ class WearablePart {
   using GazeNode = StageNode<GazeStageInput, GazeOutput>;
   using CommandPtr = std::shared_ptr<const GimbalCommand>;
 
-  void join_gaze(const Camera& camera, const Eigen::Vector3d& up_in_world);
+  double command_delay(double rate) const;
+  void join_gaze(const SensorInfo& sensor, const Eigen::Vector3d& up_in_world);
 
   const PartContext& context_;
   EventLog& log_;
