@@ -60,7 +60,8 @@ void MonoStatistics::add(const mono_slam::MonoResult& result) {
     ++lost_frames_;
     if (result.state_changed) ++times_lost_;
   }
-  if (result.state != TrackingState::tracking) return;
+  // On the frame that it starts or goes on with, nothing has been looked for.
+  if (result.state != TrackingState::tracking || result.state_changed) return;
   mapped_last_ = 0;
   for (const mono_slam::MapPoint& point : result.points) {
     if (point.kind == mono_slam::PointKind::position && !point.of_target) ++mapped_last_;

@@ -22,6 +22,13 @@ CameraCovariance camera_covariance(const Matrix6d& pose) {
   return out;
 }
 
+constexpr double kLeap = 0.03;   // rad a frame: a turn that takes the map out of view
+constexpr double kStill = 0.02;  // rad a frame: what is seen now will be seen in the next frame
+
+double commanded_turn(const MonoInput& input) {
+  return input.control ? so3_log(input.control->before_from_after.rotation()).norm() : 0;
+}
+
 // Towards the camera.
 Vector3d normal_of(const std::vector<SeenPoint>& points, const Vector3d& camera_in_world) {
   const Vector3d& origin = points[0].point_in_world;
@@ -170,6 +177,7 @@ void MonoSlam::track(const MonoInput& input) {
   measure(options_.search_deviations);
   if (count_inliers() < options_.least_inliers) measure(options_.jerk_deviations);
   inliers_ = count_inliers();
+  if (turned_away(input)) return explore(input);
   poor_frames_ = inliers_ < options_.least_inliers ? poor_frames_ + 1 : 0;
   if (poor_frames_ >= options_.patience) {
     state_ = TrackingState::lost;
@@ -181,6 +189,20 @@ void MonoSlam::track(const MonoInput& input) {
     weigh_particles();
     manage_map(input);
   }
+}
+
+// Whether a command has turned the camera to where nothing is mapped: then nothing is missing.
+bool MonoSlam::turned_away(const MonoInput& input) {
+  if (commanded_turn(input) > kLeap && poor_frames_ == 0) leapt_ = true;
+  if (inliers_ >= options_.least_inliers) leapt_ = false;
+  return leapt_ && static_cast<int>(looks_.size()) < options_.least_inliers;
+}
+
+// The pose is what the command and the motion before it say. As soon as the camera stands still,
+// many points at once: each frame without them lets it drift.
+void MonoSlam::explore(const MonoInput& input) {
+  poor_frames_ = 0;
+  if (commanded_turn(input) < kStill) add_points(input, options_.first_group);
 }
 
 int MonoSlam::count_inliers() const {
