@@ -19,6 +19,15 @@ constexpr int kWidth = 320;             // px, that pictures are reduced to
 constexpr std::int64_t kPatience = 60;  // frames without the start target before that is said
 constexpr double kHandMargin = 0.03;    // of the picture's width, that a hand may have moved by
 
+// A camera on a gimbal is carried by a body, not held in a hand: besides what is commanded it moves
+// less abruptly.
+mono_slam::MonoSlamOptions carried(mono_slam::MonoSlamOptions options, bool by_gimbal) {
+  if (!by_gimbal) return options;
+  options.motion.acceleration = 1;          // m/s^2
+  options.motion.angular_acceleration = 1;  // rad/s^2
+  return options;
+}
+
 Camera reduced(const Camera& camera) {
   if (camera.width <= kWidth) return camera;
   return resized(camera, kWidth,
@@ -44,7 +53,7 @@ MonoStage::MonoStage(const SensorInfo& sensor, const MonoSetup& setup,
       waits_for_target_(setup.options.target && !setup.map),
       stated_distance_(setup.options.stated_distance),
       gimbal_(gimbal),
-      slam_(camera_, setup.options) {
+      slam_(camera_, carried(setup.options, gimbal.has_value())) {
   if (setup.map) slam_.enter(*setup.map);
 }
 
@@ -125,14 +134,14 @@ cv::Mat MonoStage::without_hands(const HandsState& hands, const Frame& frame) co
 }
 
 // How the gimbal has turned the camera since the last frame, and how far that is to be trusted:
-// servos read their angles to a milliradian or two, late by part of the way.
+// servos read their angles to a milliradian, and late by a small part of the way.
 std::optional<mono_slam::CameraControl> MonoStage::commanded(
     const std::optional<GimbalState>& now) {
   if (!gimbal_ || !now) return std::nullopt;
   const std::optional<GimbalState> before = std::exchange(gimbal_before_, now);
   if (!before) return std::nullopt;
-  constexpr double kReading = 0.002;  // rad
-  constexpr double kShare = 0.03;
+  constexpr double kReading = 0.001;  // rad
+  constexpr double kShare = 0.005;
   constexpr double kArm = 0.03;  // m, over which a wrong angle moves the camera
   const Pose turned = camera_motion(*gimbal_, before->angles, now->angles);
   mono_slam::CameraControl control;

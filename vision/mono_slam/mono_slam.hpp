@@ -149,8 +149,7 @@ class MonoSlam {
   void start_at_origin();
   void track(const MonoInput& input);
   int count_inliers() const;
-  bool turned_away(const MonoInput& input);
-  void explore(const MonoInput& input);
+  bool turned_away();
   void find_again();
   void forget_target();
   MonoResult result(const MonoInput& input) const;
