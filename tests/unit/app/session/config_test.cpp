@@ -98,7 +98,7 @@ TEST(Config, ReadsWhatTheWearableTakes) {
   EXPECT_TRUE(config->show.rings);
   EXPECT_FALSE(read("gesture: {fingers: 5}"));
   EXPECT_FALSE(read("gaze: {target: 'colour:'}"));
-  EXPECT_FALSE(read("gaze: {mode: saccade}"));
+  EXPECT_FALSE(read("gaze: {mode: stare}"));
   EXPECT_FALSE(read("show: {outline: true}"));
 }
 
