@@ -193,6 +193,20 @@ TEST(EndToEndMono, OneFrameOfDepthGivesTheScaleAndLaterOnesNothing) {
   EXPECT_EQ(with.trajectory, blind.trajectory);
 }
 
+TEST(EndToEndMono, TheGazeLeapsToAPlaceInTheWorldByWhatTheCameraSees) {
+  const TemporaryFolder folder;
+  const MonoRun run =
+      track(folder,
+            "sim:gaze-sway,mount=shoulder,gimbal=yes,lens=80,width=320,height=240,seed=1,frames=60",
+            "gaze: {mode: saccade, target: [1, 0, 1.5]}\n");
+  std::vector<std::string> modes;
+  for (const json& event : run.events) {
+    if (event["type"] == "gaze") modes.push_back(event["mode"]);
+  }
+  EXPECT_THAT(modes, ElementsAre("saccade", "fixate"));
+  EXPECT_THAT(run.states(), ElementsAre("tracking"));
+}
+
 TEST(EndToEndMono, WhatCannotBeIsRefused) {
   const TemporaryFolder folder;
   write_text(folder / "mono.yaml", kMono);
