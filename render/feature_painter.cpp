@@ -7,6 +7,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "render/scene_lines.hpp"
 #include "render/theme.hpp"
 
 namespace armsreach::render {
@@ -20,18 +21,6 @@ struct Instance {
   Vector2f b;
   theme::Color color;
 };
-
-theme::Color color_of(FeatureState state) {
-  switch (state) {
-    case FeatureState::candidate:
-      return theme::kWarning;
-    case FeatureState::tracked:
-      return theme::kAccent;
-    case FeatureState::failed:
-      return theme::kBad;
-  }
-  return theme::kInk;
-}
 
 Instance instance_of(const View& view, const Feature& feature) {
   const float scale = static_cast<float>(view.target_scale.x());

@@ -15,6 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr double kAxes = 0.1;               // m
 constexpr double kPointsPerSecond = 300e3;  // of video, in each view
 
 const Rectangle& place_of(ViewKind kind, const Desk& desk) {
@@ -96,7 +97,8 @@ Result<MapView> MapView::make(const Gl& gl) {
 }
 
 void MapView::follow(const Scene& scene) {
-  const bool mapped = scene.surface && scene.surface->blocks.size() > 20;
+  const bool mapped = (scene.surface && scene.surface->blocks.size() > 20) ||
+                      (!scene.points.empty() && !scene.up_in_world.isZero());
   // The first guess may have had no surface to go by; with some it is made once more, then kept.
   if (!room_ || (room_is_guess_ && mapped)) {
     room_ = guess_room(scene);
@@ -205,6 +207,10 @@ void MapView::compose(const Scene& scene, const LinePainter& lines, const Frameb
   Lines moving;
   add_trails(moving, scene);
   if (scene.pose_known) add_camera(moving, scene, 0.07 * framing_.box().diagonal().norm());
+  if (scene.world_axes) add_world_axes(moving, kAxes);
+  Lines detailed = moving;
+  add_points(moving, scene, PointDetail::crosses);
+  add_points(detailed, scene, PointDetail::ellipsoids);
   for (const Picture& picture : pictures_) {
     const Rectangle& place = place_of(picture.kind, desk);
     picture.framebuffer.copy_to(target, place.x, place.y);
@@ -215,7 +221,7 @@ void MapView::compose(const Scene& scene, const LinePainter& lines, const Frameb
     target.bind();
     gl_->Enable(GL_SCISSOR_TEST);
     gl_->Scissor(place.x, place.y, place.width, place.height);
-    lines.draw(view, moving, 1.8F);
+    lines.draw(view, picture.kind == ViewKind::map ? detailed : moving, 1.8F);
     gl_->Disable(GL_SCISSOR_TEST);
   }
 }

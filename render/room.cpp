@@ -80,13 +80,20 @@ std::optional<AlignedBox3d> scene_bounds(const Scene& scene, const RoomFromWorld
       for (int i = 0; i < 3; ++i) coordinates[static_cast<std::size_t>(i)].push_back(p[i]);
     }
   }
+  for (const MapPoint& point : scene.points) {
+    // What is hardly known may be anywhere.
+    if (point.state == FeatureState::candidate || !point.point_in_world.allFinite()) continue;
+    const Vector3d p = room * point.point_in_world.cast<double>();
+    for (int i = 0; i < 3; ++i) coordinates[static_cast<std::size_t>(i)].push_back(p[i]);
+  }
   AlignedBox3d box;
   if (!coordinates[0].empty()) {
     Vector3d low;
     Vector3d high;
     for (int i = 0; i < 3; ++i) {
       std::vector<double>& values = coordinates[static_cast<std::size_t>(i)];
-      const std::size_t stray = values.size() / 100;
+      // Of a few dozen points a wrong one weighs more than of a surface.
+      const std::size_t stray = values.size() / (scene.points.empty() ? 100 : 12);
       const auto at = [&values](std::size_t rank) {
         std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank),
                          values.end());
@@ -101,10 +108,11 @@ std::optional<AlignedBox3d> scene_bounds(const Scene& scene, const RoomFromWorld
   for (const VirtualObject& object : scene.objects)
     box.extend(room * object.world_from_object.translation());
   if (box.isEmpty()) return std::nullopt;
-  // Nothing smaller than a chair fills the view.
+  // Nothing smaller than a chair fills the view; a few points need some room around them.
   const Vector3d centre = box.center();
-  const Vector3d half = (0.5 * box.sizes()).cwiseMax(0.25);
-  return AlignedBox3d(Vector3d(centre - half), Vector3d(centre + half));
+  const Vector3d half = (scene.points.empty() ? 0.5 : 0.65) * box.sizes();
+  const Vector3d least = half.cwiseMax(0.25);
+  return AlignedBox3d(Vector3d(centre - least), Vector3d(centre + least));
 }
 
 void Framing::follow(const AlignedBox3d& bounds, double time) {

@@ -27,6 +27,19 @@ struct Feature {
   FeatureState state = FeatureState::tracked;
 };
 
+// A point of a sparse map, with the 3x3 covariance of where it is.
+struct MapPoint {
+  Eigen::Vector3f point_in_world;
+  Eigen::Matrix3f covariance;  // m^2
+  FeatureState state = FeatureState::tracked;
+};
+
+// One guess of where a point may be that is not yet known.
+struct Particle {
+  Eigen::Vector3f point_in_world;
+  float weight = 1;  // 0..1
+};
+
 struct Cursor {
   Eigen::Vector2f pixel;
   bool pressed = false;
@@ -128,6 +141,9 @@ struct Scene {
   std::vector<Label> labels;
   std::vector<Trail> trails;  // the camera's trajectory among them
   SurfacePtr surface;
+  std::vector<MapPoint> points;  // of a sparse map
+  std::vector<Particle> particles;
+  bool world_axes = false;  // shown in the map, 10 cm long
   // Against gravity, for the views of the map; zero where nobody knows: then it is guessed from the
   // surface's normals.
   Eigen::Vector3d up_in_world{0, 0, 0};

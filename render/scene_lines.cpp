@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
+
+#include <Eigen/Eigenvalues>
 
 #include "render/theme.hpp"
 
@@ -11,6 +14,60 @@ namespace armsreach::render {
 
 using Eigen::Vector3d;
 using Eigen::Vector3f;
+
+namespace {
+
+constexpr float kSmallest = 0.004F;  // m, of an ellipsoid's half axes
+constexpr float kLargest = 0.6F;
+constexpr float kCross = 0.012F;  // m
+constexpr theme::Color kBlue{104, 160, 246, 255};
+
+theme::Color faded(theme::Color color, float share) {
+  color[3] = static_cast<std::uint8_t>(255 * std::clamp(share, 0.F, 1.F));
+  return color;
+}
+
+void add_cross(Lines& lines, const Vector3f& at, float size, const theme::Color& color) {
+  for (int i = 0; i < 3; ++i) {
+    const Vector3f arm = 0.5F * size * Vector3f::Unit(i);
+    lines.segment(at - arm, at + arm, color);
+  }
+}
+
+// Three ellipses, each in a plane of two of the axes.
+void add_ellipsoid(Lines& lines, const MapPoint& point) {
+  constexpr int kSegments = 20;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> axes(point.covariance);
+  const Vector3f half =
+      (3 * axes.eigenvalues().cwiseMax(0.F).cwiseSqrt()).cwiseMax(kSmallest).cwiseMin(kLargest);
+  // What is hardly known is large, and must not hide what is.
+  const theme::Color color = faded(color_of(point.state), 0.06F / (0.05F + half.maxCoeff()));
+  for (int plane = 0; plane < 3; ++plane) {
+    const Vector3f u = half[plane] * axes.eigenvectors().col(plane);
+    const Vector3f v = half[(plane + 1) % 3] * axes.eigenvectors().col((plane + 1) % 3);
+    Vector3f last = point.point_in_world + u;
+    for (int i = 1; i <= kSegments; ++i) {
+      const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / kSegments;
+      const Vector3f next = point.point_in_world + std::cos(angle) * u + std::sin(angle) * v;
+      lines.segment(last, next, color);
+      last = next;
+    }
+  }
+}
+
+}  // namespace
+
+theme::Color color_of(FeatureState state) {
+  switch (state) {
+    case FeatureState::candidate:
+      return theme::kWarning;
+    case FeatureState::tracked:
+      return theme::kAccent;
+    case FeatureState::failed:
+      return theme::kBad;
+  }
+  return theme::kInk;
+}
 
 double round_length(double limit) {
   const double decade = std::pow(10, std::floor(std::log10(limit)));
@@ -60,6 +117,27 @@ void add_trails(Lines& lines, const Scene& scene) {
     lines.fading_path(trail.points_in_world,
                       {static_cast<std::uint8_t>(rgb.x()), static_cast<std::uint8_t>(rgb.y()),
                        static_cast<std::uint8_t>(rgb.z()), 255});
+  }
+}
+
+void add_points(Lines& lines, const Scene& scene, PointDetail detail) {
+  for (const MapPoint& point : scene.points) {
+    if (!point.point_in_world.allFinite() || !point.covariance.allFinite()) continue;
+    add_cross(lines, point.point_in_world, kCross, color_of(point.state));
+    if (detail == PointDetail::ellipsoids) add_ellipsoid(lines, point);
+  }
+  for (const Particle& particle : scene.particles) {
+    if (particle.point_in_world.allFinite())
+      add_cross(lines, particle.point_in_world, 0.5F * kCross,
+                faded(theme::kWarning, particle.weight));
+  }
+}
+
+void add_world_axes(Lines& lines, double size) {
+  const std::array colors{theme::kBad, theme::kGood, kBlue};
+  for (int i = 0; i < 3; ++i) {
+    lines.segment(Vector3f::Zero(), static_cast<float>(size) * Vector3f::Unit(i),
+                  colors[static_cast<std::size_t>(i)]);
   }
 }
 

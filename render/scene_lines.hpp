@@ -18,6 +18,16 @@ void add_camera(Lines& lines, const Scene& scene, double size);
 // Trails, fading with age.
 void add_trails(Lines& lines, const Scene& scene);
 
+// The sparse map's points with their ellipsoids of three deviations, or, where that would be too
+// much, as crosses; and what is guessed of those not yet known.
+enum class PointDetail { crosses, ellipsoids };
+void add_points(Lines& lines, const Scene& scene, PointDetail detail);
+
+// x red, y green, z blue, `size` metres long.
+void add_world_axes(Lines& lines, double size);
+
+theme::Color color_of(FeatureState state);
+
 // 1, 2 or 5 times a power of ten, at most `limit`.
 double round_length(double limit);
 

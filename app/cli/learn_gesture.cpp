@@ -27,10 +27,10 @@ struct LearnGestureOptions {
 // As asked for; else the folder's own, so that its templates stay comparable.
 Result<gesture::RingLayout> layout_for(const LearnGestureOptions& options) {
   if (options.rings == kPaperRings) return gesture::doubling_rings();
-  if (options.rings == kLinearRings) return gesture::linear_rings();
+  if (options.rings == kLinearRings) return gesture::fine_rings();
   auto layout = layout_in(options.templates, options.vocabulary);
   if (!layout) return layout.error();
-  return layout->value_or(gesture::linear_rings());
+  return layout->value_or(gesture::fine_rings());
 }
 
 Status learn(const LearnGestureOptions& options) {
@@ -72,7 +72,7 @@ void add_learn_gesture(CLI::App& learn_verb, Task* task) {
       ->capture_default_str();
   command
       ->add_option("--rings", o->rings,
-                   "paper: five, radii doubling, 180 samples; linear: twelve at equal distances, "
+                   "paper: five, radii doubling, 180 samples; linear: sixteen at equal distances, "
                    "90 samples [those of the folder, else linear]")
       ->check(CLI::IsMember({kPaperRings, kLinearRings}));
   command->add_option("--skin", o->skin.model, "skin model, from `calibrate skin`");

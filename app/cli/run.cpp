@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/cli/hands_setup.hpp"
+#include "app/cli/mono_setup.hpp"
 #include "app/cli/rig_options.hpp"
 #include "app/cli/run_options.hpp"
 #include "app/pipelines/narrator.hpp"
@@ -104,11 +105,60 @@ bool wants(const RunOptions& options, const char* experience) {
   return std::count(options.experience.begin(), options.experience.end(), experience) > 0;
 }
 
-Status check_experience(const RunOptions& options, bool workspace) {
-  if (workspace || (options.map.empty() && options.session.empty() && options.trajectory.empty()))
+struct Parts {
+  bool workspace = false;
+  bool mono = false;
+  bool wearable = false;
+};
+
+// Who tracks, and for whom.
+Parts parts_for(const RunOptions& options, const Config& config, const SavedWorld& world,
+                const SensorInfo& sensor) {
+  const std::string& method = config.tracking.method;
+  const bool dense = method == "dense" || (method == "auto" && !world.sparse_map);
+  Parts parts;
+  const bool in_depth = sensor.depth_camera || world.map || !options.map.empty();
+  parts.workspace = options.experience.empty() ? dense && in_depth : wants(options, "workspace");
+  parts.wearable = options.experience.empty() ? !parts.workspace : wants(options, "wearable");
+  const bool needs_pose = world.sparse_map || config.gaze.mode == "saccade" ||
+                          config.gaze.mode == "fixate" || !sensor.depth_camera;
+  parts.mono = !parts.workspace && (method == "mono" || (method == "auto" && needs_pose)) &&
+               sensor.color_camera;
+  return parts;
+}
+
+Status check_parts(const Parts& parts, const RunOptions& options, const Config& config,
+                   const SavedWorld& world, const SensorInfo& sensor) {
+  const bool asks_mono = config.tracking.method == "mono";
+  if (asks_mono && parts.workspace) {
+    return Error{"tracking: {method: mono} is not for the workspace", options.config,
+                 "leave workspace out of --experience, or take method: dense"};
+  }
+  if (asks_mono && !sensor.color_camera) {
+    return Error{"tracking: {method: mono} needs a picture, and the sensor has only depth",
+                 options.config, "take another source, or method: dense"};
+  }
+  if ((parts.workspace && world.sparse_map) || (parts.mono && world.map)) {
+    return Error{
+        std::string("the session is that of a ") + (world.map ? "depth camera" : "plain camera"),
+        options.session,
+        "give --session another folder, or track as then: tracking: {method: " +
+            std::string(world.map ? "dense}" : "mono}")};
+  }
+  if (!parts.workspace && !options.map.empty()) {
+    return Error{"--map is for the workspace", "--experience",
+                 "add workspace to --experience, or remove it"};
+  }
+  if (parts.workspace || parts.mono || (options.session.empty() && options.trajectory.empty()))
     return ok();
-  return Error{"--map, --session and --trajectory are for the workspace", "--experience",
-               "add workspace to --experience, or remove them"};
+  return Error{"--session and --trajectory are for a camera that is tracked", "--experience",
+               "add workspace to --experience, or in the configuration tracking: {method: mono}, "
+               "or remove them"};
+}
+
+// The start target that lies beside the main sensor's recording; "" where none does.
+std::string target_beside_source(const RunOptions& options) {
+  return options.sources.size() == 1 ? target_of_source(options.sources.front()) : "";
 }
 
 void print_summary(const RunSummary& s, bool tracked) {
@@ -145,14 +195,17 @@ Status run(const RunOptions& options, const Config& config) {
   if (!rig) return rig.error();
   const SensorInfoPtr sensor = (*rig)->sensors()[main_sensor(**rig)].source->sensor();
 
-  const bool workspace = options.experience.empty()
-                             ? sensor->depth_camera || world->map || !options.map.empty()
-                             : wants(options, "workspace");
-  const bool wearable = options.experience.empty() ? !workspace : wants(options, "wearable");
-  if (auto status = check_experience(options, workspace); !status) return status;
+  const Parts parts = parts_for(options, config, *world, *sensor);
+  if (auto status = check_parts(parts, options, config, *world, *sensor); !status) return status;
 
   PipelineOptions pipeline;
-  if (wearable) {
+  if (parts.mono) {
+    auto mono = make_mono_setup(config.mono_slam, target_beside_source(options), options.seed);
+    if (!mono) return mono.error();
+    pipeline.mono = *std::move(mono);
+    pipeline.mono->map = world->sparse_map;
+  }
+  if (parts.wearable) {
     auto hands = make_hands_setup(config.gesture, config.show);
     if (!hands) return hands.error();
     pipeline.hands = *std::move(hands);
@@ -170,9 +223,9 @@ Status run(const RunOptions& options, const Config& config) {
     (*narrator)->speak_aloud(make_spoken_voice());
   }
 
-  tell_fallbacks(config, *world, *sensor, workspace, log);
+  tell_fallbacks(config, *world, *sensor, parts.workspace, log);
 
-  pipeline.workspace = workspace;
+  pipeline.workspace = parts.workspace;
   pipeline.sensor = sensor;
   pipeline.pace = pace;
   pipeline.frames = options.frames;
@@ -187,7 +240,7 @@ Status run(const RunOptions& options, const Config& config) {
   if (!summary) return summary.error();
   if (!spoken) return spoken;
   if (!logged) return logged;
-  print_summary(*summary, workspace);
+  print_summary(*summary, parts.workspace || parts.mono);
   return ok();
 }
 

@@ -6,6 +6,7 @@
 
 #include "app/pipelines/background.hpp"
 #include "app/pipelines/hands_scene.hpp"
+#include "app/pipelines/mono_scene.hpp"
 #include "vision/core/pyramid.hpp"
 #include "vision/core/registration.hpp"
 
@@ -73,7 +74,7 @@ ComposedPtr Composer::process(const ComposeInput& input) {
   news_.insert(news_.end(), input.news.begin(), input.news.end());
   if (!input.tracked) return nullptr;  // the tracker failed on this frame and has said so
   const TrackedFrame& tracked = *input.tracked;
-  const WorldView* world = input.map ? input.map->view.get() : nullptr;
+  const WorldView* world = input.map ? input.map->view.get() : tracked.world.get();
 
   auto composed = std::make_shared<Composed>();
   composed->arrival = tracked.frame->arrival;
@@ -90,6 +91,7 @@ ComposedPtr Composer::process(const ComposeInput& input) {
   add_video(tracked, scene.get());
   add_tracking(tracked, scene.get());
   if (input.map) scene->surface = input.map->surface;
+  if (tracked.mono) add_sparse_map(tracked, scene.get());
   add_objects(world, scene.get());
   if (input.hands) add_hands(*input.hands, scene.get());
   add_messages(tracked.frame->time, scene.get());
@@ -131,6 +133,7 @@ void Composer::add_tracking(const TrackedFrame& tracked, render::Scene* scene) {
   scene->tracking_rms = tracked.rms;
   scene->tracking_inliers = tracked.inliers;
   scene->inliers = tracked.weights;
+  scene->up_in_world = tracked.up_in_world;
   if (scene->pose_known) {
     const Eigen::Vector3f here = tracked.world_from_camera.translation().cast<float>();
     if (camera_trail_.empty() || (here - camera_trail_.back()).norm() > kTrailStep) {

@@ -1,6 +1,8 @@
-// Turns the camera on its gimbal after what the wearer does.
+// Turns the camera on its gimbal after what the wearer does, or to a place in the world.
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,9 +15,14 @@
 
 namespace armsreach::app {
 
+// Where inserted objects are, by their ids.
+using ObjectPlaces = std::map<std::int64_t, Eigen::Vector3d>;
+using ObjectPlacesPtr = std::shared_ptr<const ObjectPlaces>;
+
 struct GazeStageInput {
   SeenFrame seen;
   std::optional<GimbalState> gimbal;  // at the time of the frame
+  ObjectPlacesPtr objects = nullptr;  // of an earlier frame
 };
 
 struct GazeOutput {
@@ -25,15 +32,21 @@ struct GazeOutput {
 
 class GazeStage final : public Stage<GazeStageInput, GazeOutput> {
  public:
-  // `camera` is the one whose pixels hands are seen in.
-  GazeStage(const GazeConfig& config, const GimbalModel& model, const Camera& camera);
+  // `camera` is the one whose pixels hands are seen in; `up_in_world` is zero where nobody knows;
+  // `delay` [s] is how long after its frame a command will be given.
+  GazeStage(const GazeConfig& config, const GimbalModel& model, const Camera& camera,
+            const Eigen::Vector3d& up_in_world, double delay);
   std::string name() const override { return "gaze"; }
   GazeOutput process(const GazeStageInput& input) override;
 
  private:
   std::optional<Eigen::Vector2d> target(const HandsState& hands) const;
+  std::optional<Eigen::Vector3d> point_in_world(const GazeStageInput& input) const;
+  void aim(const GazeStageInput& input);
 
-  std::string target_;
+  GazeConfig config_;
+  std::optional<Eigen::Vector3d> aimed_at_;  // in the world
+  Timestamp delay_;
   GazeController controller_;
 };
 

@@ -9,6 +9,7 @@
 #include "app/pipelines/composer.hpp"
 #include "app/pipelines/draw_node.hpp"
 #include "app/pipelines/journal.hpp"
+#include "app/pipelines/mono_part.hpp"
 #include "app/pipelines/wearable_part.hpp"
 #include "app/pipelines/workspace_part.hpp"
 #include "app/runtime/interrupt.hpp"
@@ -37,8 +38,9 @@ SeenFrame without_hands(const TrackedFramePtr& tracked) { return {tracked, nullp
 // All parts and how they are joined; each may be left out:
 //
 //   capture -> workspace -> wearable -> composing -> drawing
-//      ^          |  map       |  | news  ^  ^  user  |
-//      |          +------------|--+-------+  +--------+
+//      ^        or mono        |  |       ^  ^  user  |
+//      |          |  map, news |  | news  |  +--------+
+//      |          +------------|--+-------+
 //      +-----------------------+ gimbal
 class Pipeline {
  public:
@@ -50,6 +52,8 @@ class Pipeline {
  private:
   void join_capture();
   void join_parts(SavedWorld world);
+  template <class T, class Convert>
+  void connect_tracked(const std::shared_ptr<Connection<T>>& to, Convert convert);
   void join_composing(const std::vector<SavedObject>& objects);
   void join_drawing();
   std::optional<ComposeInput> take_composing();
@@ -59,6 +63,8 @@ class Pipeline {
   RunSummary summary(double seconds);
   Status write_stats(const RunSummary& summary);
   Status save_world();
+  Status save_sparse_world();
+  std::vector<SavedObject> objects(const WorldView* view) const;
   Status first_failure();
 
   const PipelineOptions& options_;
@@ -75,6 +81,7 @@ class Pipeline {
 
   CaptureNode capture_;
   std::unique_ptr<WorkspacePart> workspace_;  // null without it
+  std::unique_ptr<MonoPart> mono_;            // null without it
   std::unique_ptr<WearablePart> wearable_;    // null without it
   std::unique_ptr<ComposingNode> composing_;
   std::unique_ptr<DrawNode> drawing_;
@@ -102,33 +109,40 @@ Pipeline::Pipeline(Rig& rig, Presenter& presenter, EventLog& log, const Config& 
 }
 
 void Pipeline::join_parts(SavedWorld world) {
+  const SensorInfo& sensor = *options_.sensor;
+  const auto gimbal = rig_.gimbal_of(sensor.name);
   if (options_.workspace) {
     workspace_ = std::make_unique<WorkspacePart>(context_, options_.sensor, capture_.outlet(),
                                                  std::move(world));
     workspace_->outlet().connect(to_journal_, entry_from_tracked);
+  } else if (options_.mono) {
+    mono_ = std::make_unique<MonoPart>(context_, sensor, *options_.mono, capture_.outlet(), gimbal);
+    mono_->outlet().connect(to_journal_, [](const MonoStageOutput& output) {
+      return entry_from_tracked(output.tracked);
+    });
   } else {
     capture_.outlet().connect(
         to_journal_, [](const FramePtr& frame) { return entry_from_tracked(untracked(frame)); });
   }
-  std::shared_ptr<Connection<TrackedFramePtr>> to_hands;
-  if (options_.hands) {
-    const SensorInfo& sensor = *options_.sensor;
-    wearable_ = std::make_unique<WearablePart>(
-        context_, *options_.hands, sensor.color_camera ? *sensor.color_camera : sensor.camera(),
-        rig_.gimbal_of(sensor.name), log_);
-    to_hands = wearable_->input();
-    wearable_->outlet().connect(to_compose_, [](const HandsOutput& output) { return output.seen; });
+  if (!options_.hands) return connect_tracked(to_compose_, without_hands);
+  wearable_ = std::make_unique<WearablePart>(
+      context_, *options_.hands, sensor, gimbal,
+      mono_ ? up_in_world(*options_.mono) : Eigen::Vector3d(Eigen::Vector3d::Zero()), log_);
+  connect_tracked(wearable_->input(), [](const TrackedFramePtr& tracked) { return tracked; });
+  wearable_->outlet().connect(to_compose_, [](const HandsOutput& output) { return output.seen; });
+  if (mono_) mono_->look_out_for_hands(wearable_->outlet());
+}
+
+// Whatever tracks, or else the capture, to whoever comes next.
+template <class T, class Convert>
+void Pipeline::connect_tracked(const std::shared_ptr<Connection<T>>& to, Convert convert) {
+  if (workspace_) return workspace_->outlet().connect(to, convert);
+  if (mono_) {
+    return mono_->outlet().connect(
+        to, [convert](const MonoStageOutput& output) { return convert(output.tracked); });
   }
-  if (workspace_ && wearable_) {
-    workspace_->outlet().connect(to_hands);
-  } else if (workspace_) {
-    workspace_->outlet().connect(to_compose_, without_hands);
-  } else if (wearable_) {
-    capture_.outlet().connect(to_hands, untracked);
-  } else {
-    capture_.outlet().connect(
-        to_compose_, [](const FramePtr& frame) { return without_hands(untracked(frame)); });
-  }
+  capture_.outlet().connect(to,
+                            [convert](const FramePtr& frame) { return convert(untracked(frame)); });
 }
 
 void Pipeline::join_capture() {
@@ -147,7 +161,10 @@ std::optional<ComposeInput> Pipeline::take_composing() {
   input.hands = seen->hands;
   if (workspace_) input.map = workspace_->take_map();
   if (workspace_) input.registration = workspace_->take_registration();
-  if (wearable_) input.news = wearable_->take_news();
+  if (mono_) input.news = mono_->take_news();
+  if (wearable_) {
+    for (HandNews& news : wearable_->take_news()) input.news.push_back(std::move(news));
+  }
   input.user = user_.take();
   return input;
 }
@@ -164,12 +181,14 @@ void Pipeline::join_composing(const std::vector<SavedObject>& objects) {
   composing_ = std::make_unique<ComposingNode>(
       std::move(composer), [this] { return take_composing(); }, context_.fault);
   composing_->outlet().connect(scenes_);
+  if (wearable_) wearable_->look_at_objects(composing_->outlet());
   composing_->at_end([this] {
     to_compose_->close();
     if (workspace_) workspace_->close_composing();
+    if (mono_) mono_->close_composing();
+    composing_->outlet().close();
     if (wearable_) wearable_->close_composing();
     user_.connection()->close();
-    scenes_->close();
   });
 }
 
@@ -198,6 +217,7 @@ std::vector<PartNode> Pipeline::nodes() {
     all.insert(all.end(), part.begin(), part.end());
   };
   if (workspace_) add(workspace_->nodes());
+  if (mono_) add(mono_->nodes());
   if (wearable_) add(wearable_->nodes());
   all.push_back({composing_.get(), [this] { return to_compose_->drops(); }});
   all.push_back({drawing_.get(), [this] { return scenes_->drops(); }});
@@ -234,8 +254,10 @@ Result<RunSummary> Pipeline::run() {
 }
 
 Status Pipeline::save_world() {
+  if (options_.map.empty() && options_.session.empty()) return ok();
+  if (mono_) return save_sparse_world();
   const MappingStage* mapping = workspace_ ? workspace_->mapping() : nullptr;
-  if (!mapping || (options_.map.empty() && options_.session.empty())) return ok();
+  if (!mapping) return ok();
   // A map that nothing was added to stays as it is; of a session the objects may have changed.
   const mapping::VoxelGrid& grid = mapping->map().grid();
   const bool unchanged =
@@ -247,11 +269,26 @@ Status Pipeline::save_world() {
   }
   if (!options_.map.empty()) return save_map(options_.map, grid);
   const WorldViewPtr view = mapping->state() ? mapping->state()->view : nullptr;
-  std::vector<SavedObject> objects;
-  for (const PlacedObject& object : composer_->placement().objects()) {
-    objects.push_back({object.id, object.mesh, Placement::world_from_object(object, view.get())});
+  return save_session(options_.session, grid, workspace_->key_frames(), objects(view.get()));
+}
+
+Status Pipeline::save_sparse_world() {
+  const mono_slam::SparseMap map = mono_->stage().map();
+  if (map.landmarks.empty()) {
+    log_.write({log_.now(), FaultEvent{"mono_slam", "nothing was mapped: the session is not saved",
+                                       "move the camera sideways, so that points are seen from "
+                                       "several places"}});
+    return ok();
   }
-  return save_session(options_.session, grid, workspace_->key_frames(), objects);
+  return save_session(options_.session, map, objects(mono_->stage().view().get()));
+}
+
+std::vector<SavedObject> Pipeline::objects(const WorldView* view) const {
+  std::vector<SavedObject> all;
+  for (const PlacedObject& object : composer_->placement().objects()) {
+    all.push_back({object.id, object.mesh, Placement::world_from_object(object, view)});
+  }
+  return all;
 }
 
 RunSummary Pipeline::summary(double seconds) {
@@ -278,20 +315,25 @@ Status Pipeline::write_stats(const RunSummary& result) {
   }
   const LatencyHistogram& latency = drawing_->latency();
   const Narrator* narrator = options_.narrator;
-  const nlohmann::json stats = {{"frames", result.frames},
-                                {"tracked_frames", result.tracked_frames},
-                                {"seconds", result.seconds},
-                                {"rate", result.rate},
-                                {"latency",
-                                 {{"p50", latency.percentile(0.5)},
-                                  {"p95", latency.percentile(0.95)},
-                                  {"p99", latency.percentile(0.99)}}},
-                                {"film_frames_dropped", presenter_.dropped_film_frames()},
-                                {"speech",
-                                 {{"said", narrator ? narrator->said() : 0},
-                                  {"dropped", narrator ? narrator->dropped() : 0}}},
-                                {"peak_memory_mb", peak_memory_mb()},
-                                {"stages", stages}};
+  nlohmann::json stats = {{"frames", result.frames},
+                          {"tracked_frames", result.tracked_frames},
+                          {"seconds", result.seconds},
+                          {"rate", result.rate},
+                          {"latency",
+                           {{"p50", latency.percentile(0.5)},
+                            {"p95", latency.percentile(0.95)},
+                            {"p99", latency.percentile(0.99)}}},
+                          {"film_frames_dropped", presenter_.dropped_film_frames()},
+                          {"speech",
+                           {{"said", narrator ? narrator->said() : 0},
+                            {"dropped", narrator ? narrator->dropped() : 0}}},
+                          {"peak_memory_mb", peak_memory_mb()},
+                          {"stages", stages}};
+  if (mono_) {
+    stats["mono_slam"] = mono_->stage().statistics().json();
+    stats["mono_slam"]["milliseconds"] = {{"mean", 1e3 * mono_->spent().mean()},
+                                          {"p95", 1e3 * mono_->spent().percentile(0.95)}};
+  }
   return write_file(options_.stats, [&](std::ostream& out) { out << stats.dump(2) << "\n"; });
 }
 

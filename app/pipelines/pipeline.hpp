@@ -7,6 +7,7 @@
 #include <string>
 
 #include "app/pipelines/hands_stage.hpp"
+#include "app/pipelines/mono_stage.hpp"
 #include "app/pipelines/narrator.hpp"
 #include "app/pipelines/presenter.hpp"
 #include "app/runtime/event_log.hpp"
@@ -21,6 +22,7 @@ namespace armsreach::app {
 struct PipelineOptions {
   SensorInfoPtr sensor;  // of the rig, that is shown
   bool workspace = true;
+  std::optional<MonoSetup> mono;    // tracks a plain camera; not together with the workspace
   std::optional<HandsSetup> hands;  // what the wearable experience needs; nothing: without it
   Pace pace = Pace::live;
   std::optional<std::int64_t> frames;

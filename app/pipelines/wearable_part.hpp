@@ -11,6 +11,7 @@
 #include <memory>
 #include <vector>
 
+#include "app/pipelines/composer.hpp"
 #include "app/pipelines/gaze_stage.hpp"
 #include "app/pipelines/hands_stage.hpp"
 #include "app/pipelines/part.hpp"
@@ -21,9 +22,9 @@ namespace armsreach::app {
 
 class WearablePart {
  public:
-  // `gimbal` carries the sensor; null where none does.
-  WearablePart(const PartContext& context, HandsSetup setup, const Camera& camera,
-               std::shared_ptr<Gimbal> gimbal, EventLog& log);
+  // `gimbal` carries the sensor; null where none does. `up_in_world` is zero where nobody knows.
+  WearablePart(const PartContext& context, HandsSetup setup, const SensorInfo& sensor,
+               std::shared_ptr<Gimbal> gimbal, const Eigen::Vector3d& up_in_world, EventLog& log);
 
   const std::shared_ptr<Connection<TrackedFramePtr>>& input() const { return frames_; }
   Outlet<HandsOutput>& outlet() { return hands_->outlet(); }
@@ -32,6 +33,9 @@ class WearablePart {
   // What is new since the last time; to be taken once a frame by whoever composes.
   std::vector<HandNews> take_news();
   void close_composing();  // nobody takes any more
+
+  // What was composed tells the gaze where inserted objects are.
+  void look_at_objects(Outlet<ComposedPtr>& composed);
 
   // Gives the gimbal the command that is due; to be called once before every frame is read.
   void command_gimbal();
@@ -42,7 +46,8 @@ class WearablePart {
   using GazeNode = StageNode<GazeStageInput, GazeOutput>;
   using CommandPtr = std::shared_ptr<const GimbalCommand>;
 
-  void join_gaze(const Camera& camera);
+  double command_delay(double rate) const;
+  void join_gaze(const SensorInfo& sensor, const Eigen::Vector3d& up_in_world);
 
   const PartContext& context_;
   EventLog& log_;
@@ -51,8 +56,10 @@ class WearablePart {
   std::shared_ptr<Connection<SeenFrame>> to_gaze_;
   FollowingEvents<HandNews> hand_news_;
   FollowingEvents<HandNews> gaze_news_;
+  Following<ObjectPlacesPtr> objects_;
   Following<CommandPtr> commands_;
 
+  bool objects_told_ = false;
   bool command_failed_ = false;  // and that has been told
 
   std::unique_ptr<HandsNode> hands_;

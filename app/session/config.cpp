@@ -41,13 +41,43 @@ Action read_action(YamlSection section) {
   return action;
 }
 
+bool is_one_of(const std::string& text, const std::set<std::string>& names) {
+  return names.count(text) > 0;
+}
+
 void read_tracking(YamlSection section, TrackingConfig* tracking) {
+  section.read<std::string>("method", &tracking->method, "auto, dense, mono or none",
+                            [](const std::string& m) {
+                              return is_one_of(m, {"auto", "dense", "mono", "none"});
+                            });
   section.read<double>("alpha", &tracking->alpha, "between 0 (intensity) and 1 (depth)",
                        [](const double& a) { return a >= 0 && a <= 1; });
   section.read<int>("iterations", &tracking->iterations, "between 1 and 100",
                     [](const int& n) { return n >= 1 && n <= 100; });
   section.read<int>("width", &tracking->width, "80 or 160 pixels",
                     [](const int& w) { return w == 80 || w == 160; });
+  section.refuse_unknown();
+}
+
+void read_mono_slam(YamlSection section, MonoSlamConfig* mono) {
+  section.read<std::string>("target", &mono->target, "a file of a start target",
+                            [](const std::string& file) { return !file.empty(); });
+  section.read<double>("stated_distance", &mono->stated_distance, "between 0.05 and 100 metres",
+                       [](const double& d) { return d >= 0.05 && d <= 100; });
+  section.read<int>("visible_points", &mono->visible_points, "between 8 and 60",
+                    [](const int& n) { return n >= 8 && n <= 60; });
+  section.read<int>("most_points", &mono->most_points, "between 16 and 400",
+                    [](const int& n) { return n >= 16 && n <= 400; });
+  section.read<std::string>("new_points", &mono->new_points, "particles or inverse_depth",
+                            [](const std::string& n) {
+                              return is_one_of(n, {"particles", "inverse_depth"});
+                            });
+  int frame = 0;
+  section.read<int>("forget_start_target_at", &frame, "a frame number, 1 or more",
+                    [](const int& n) { return n >= 1; });
+  if (frame > 0) mono->forget_start_target_at = frame;
+  if (mono->visible_points > mono->most_points)
+    section.complain("'" + section.path() + "visible_points' must not exceed most_points");
   section.refuse_unknown();
 }
 
@@ -85,16 +115,46 @@ void read_gesture(YamlSection section, GestureConfig* gesture) {
   section.refuse_unknown();
 }
 
-bool is_gaze_target(const std::string& target) {
-  return target == "hand" || target == "hands" || target == "grasp" ||
-         (target.rfind("colour:", 0) == 0 && target.size() > 7);
+bool has_prefix(const std::string& text, const std::string& prefix) {
+  return text.size() > prefix.size() && text.rfind(prefix, 0) == 0;
+}
+
+bool has_number(const std::string& text, const std::string& prefix) {
+  return has_prefix(text, prefix) && text.size() < prefix.size() + 10 &&
+         text.find_first_not_of("0123456789", prefix.size()) == std::string::npos;
+}
+
+bool is_seen_target(const std::string& target) {
+  return is_one_of(target, {"hand", "hands", "grasp"}) || has_prefix(target, "colour:");
+}
+
+void read_gaze_target(YamlSection& section, GazeConfig* gaze) {
+  const YAML::Node node = section.child("target");
+  if (!node) return;
+  std::vector<double> point;
+  if (node.IsSequence() && YAML::convert<std::vector<double>>::decode(node, point) &&
+      point.size() == 3) {
+    gaze->point_in_world = Eigen::Vector3d(point[0], point[1], point[2]);
+    if (gaze->point_in_world->allFinite()) return;
+  } else if (node.IsScalar()) {
+    gaze->target = node.Scalar();
+    if (is_seen_target(gaze->target) || has_number(gaze->target, "point:") ||
+        has_number(gaze->target, "object:"))
+      return;
+  }
+  section.complain("'" + section.path() +
+                   "target' must be hand, hands, grasp, colour:NAME, point:ID, object:ID or a "
+                   "point in the world, [x, y, z]");
 }
 
 void read_gaze(YamlSection section, GazeConfig* gaze) {
-  section.read<std::string>("mode", &gaze->mode, "follow or rest",
-                            [](const std::string& m) { return m == "follow" || m == "rest"; });
-  section.read<std::string>("target", &gaze->target, "hand, hands, grasp or colour:NAME",
-                            is_gaze_target);
+  section.read<std::string>("mode", &gaze->mode, "follow, saccade, fixate or rest",
+                            [](const std::string& m) {
+                              return is_one_of(m, {"follow", "saccade", "fixate", "rest"});
+                            });
+  read_gaze_target(section, gaze);
+  if (gaze->mode == "follow" && (gaze->point_in_world || !is_seen_target(gaze->target)))
+    section.complain("'" + section.path() + "mode' must be saccade or fixate for a point");
   section.refuse_unknown();
 }
 
@@ -135,6 +195,7 @@ void read_root(YamlSection root, Config* config) {
   root.read<int>("lag", &config->lag, "between 1 and 30 frames",
                  [](const int& n) { return n >= 1 && n <= 30; });
   read_tracking(root.section("tracking"), &config->tracking);
+  read_mono_slam(root.section("mono_slam"), &config->mono_slam);
   read_mapping(root.section("mapping"), &config->mapping);
   read_gesture(root.section("gesture"), &config->gesture);
   read_gaze(root.section("gaze"), &config->gaze);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <istream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,9 +24,22 @@ struct Action {
 };
 
 struct TrackingConfig {
+  // dense: depth (or a map that depth has left); mono: the picture alone; none; auto: dense for the
+  // workspace, mono for the wearer of a plain camera.
+  std::string method = "auto";
   double alpha = 0.95;  // weight of depth against intensity, 0..1
   int iterations = 0;   // at each resolution; 0: what the width needs
   int width = 80;       // px of the finest images aligned: 80 or 160
+};
+
+// Of a camera that is tracked by its picture alone.
+struct MonoSlamConfig {
+  std::string target;          // file of the start target; empty: the recording's, if it has one
+  double stated_distance = 1;  // m, of what is seen first, where neither target nor depth says
+  int visible_points = 36;     // kept in view
+  int most_points = 120;       // in the map
+  std::string new_points = "inverse_depth";   // or "particles"
+  std::optional<int> forget_start_target_at;  // frame
 };
 
 struct MappingConfig {
@@ -54,8 +68,11 @@ struct GestureConfig {
 };
 
 struct GazeConfig {
-  std::string mode = "follow";  // or "rest"
-  std::string target = "hand";  // or hands (their midpoint), grasp (what it points at), colour:NAME
+  std::string mode = "follow";  // saccade, fixate or rest
+  // hand, hands (their midpoint), grasp (what it points at), colour:NAME; to leap to and to hold
+  // also point:ID of the sparse map and object:ID inserted.
+  std::string target = "hand";
+  std::optional<Eigen::Vector3d> point_in_world;  // m, in place of a target's name
 };
 
 struct ShowConfig {
@@ -74,6 +91,7 @@ struct Config {
   bool threads = true;  // false: one loop turns every stage (only with --pace every-frame)
   int lag = 3;          // frames between a frame and the map it is tracked against, every-frame
   TrackingConfig tracking;
+  MonoSlamConfig mono_slam;
   MappingConfig mapping;
   GestureConfig gesture;
   GazeConfig gaze;

@@ -80,6 +80,20 @@ Status replace_file(const fs::path& path, Write write) {
   return ok();
 }
 
+Status make_folder(const fs::path& root) {
+  std::error_code error;
+  fs::create_directories(root, error);
+  if (!error) return ok();
+  return Error{error.message(), root.string(), "give --session a folder that is yours"};
+}
+
+Status save_objects(const fs::path& root, const std::vector<SavedObject>& objects) {
+  json list = json::array();
+  for (const SavedObject& object : objects) list.push_back(json_from_object(object));
+  return replace_file(root / "objects.json",
+                      [&](std::ostream& out) { out << list.dump(1) << "\n"; });
+}
+
 }  // namespace
 
 Result<SavedWorld> load_map(const std::string& path, const mapping::VoxelMapOptions& options) {
@@ -105,9 +119,17 @@ Result<SavedWorld> load_session(const std::string& folder,
   }
   auto world = load_map((root / "map.ot").string(), options);
   if (!world) return world;
-  if (!world->map) {
+  auto sparse_map =
+      read_if_there<mono_slam::SparseMap>(root / "sparse_map.bin", mono_slam::read_sparse_map);
+  if (!sparse_map) return sparse_map.error();
+  world->sparse_map = *std::move(sparse_map);
+  if (world->map && world->sparse_map) {
+    return Error{"the session has both a map.ot and a sparse_map.bin", folder,
+                 "keep the one, and give the other a folder of its own"};
+  }
+  if (!world->map && !world->sparse_map) {
     if (!fs::exists(root / "key_frames.bin") && !fs::exists(root / "objects.json")) return world;
-    return Error{"the session has lost its map.ot", folder,
+    return Error{"the session has lost its map.ot or sparse_map.bin", folder,
                  "put the map back, or give --session another folder"};
   }
   auto key_frames = read_if_there<relocalisation::KeyFrames>(root / "key_frames.bin",
@@ -124,17 +146,25 @@ Status save_session(const std::string& folder, const mapping::VoxelGrid& grid,
                     const relocalisation::KeyFrames& key_frames,
                     const std::vector<SavedObject>& objects) {
   const fs::path root(folder);
-  std::error_code error;
-  fs::create_directories(root, error);
-  if (error) return Error{error.message(), folder, "give --session a folder that is yours"};
-  json list = json::array();
-  for (const SavedObject& object : objects) list.push_back(json_from_object(object));
+  if (auto status = make_folder(root); !status) return status;
   for (const Status& status :
        {save_map((root / "map.ot").string(), grid),
         replace_file(root / "key_frames.bin",
                      [&](std::ostream& out) { relocalisation::write_key_frames(out, key_frames); }),
-        replace_file(root / "objects.json",
-                     [&](std::ostream& out) { out << list.dump(1) << "\n"; })}) {
+        save_objects(root, objects)}) {
+    if (!status) return status;
+  }
+  return ok();
+}
+
+Status save_session(const std::string& folder, const mono_slam::SparseMap& map,
+                    const std::vector<SavedObject>& objects) {
+  const fs::path root(folder);
+  if (auto status = make_folder(root); !status) return status;
+  for (const Status& status :
+       {replace_file(root / "sparse_map.bin",
+                     [&](std::ostream& out) { mono_slam::write_sparse_map(out, map); }),
+        save_objects(root, objects)}) {
     if (!status) return status;
   }
   return ok();

@@ -1,5 +1,6 @@
-// What a run leaves behind and a later one enters again: the dense map, the key frames that a lost
-// camera is recognised by, and the objects that stand in the map.
+// What a run leaves behind and a later one enters again: the dense map with the key frames that a
+// lost camera is recognised by, or the sparse map of a plain camera, and the objects that stand in
+// it.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include "vision/core/pose.hpp"
 #include "vision/core/result.hpp"
 #include "vision/mapping/voxel_map.hpp"
+#include "vision/mono_slam/sparse_map.hpp"
 #include "vision/relocalisation/relocaliser.hpp"
 
 namespace armsreach::app {
@@ -23,6 +25,7 @@ struct SavedObject {
 struct SavedWorld {
   std::optional<mapping::VoxelMap> map;
   relocalisation::KeyFrames key_frames;
+  std::optional<mono_slam::SparseMap> sparse_map;
   std::vector<SavedObject> objects;
 };
 
@@ -32,11 +35,14 @@ struct SavedWorld {
 Result<SavedWorld> load_map(const std::string& path, const mapping::VoxelMapOptions& options);
 Status save_map(const std::string& path, const mapping::VoxelGrid& grid);
 
-// A session: a folder with map.ot, key_frames.bin and objects.json. Without a map the other two
-// mean nothing, so they are refused rather than lost.
+// A session: a folder with map.ot and key_frames.bin, or with sparse_map.bin, and objects.json.
+// Without a map the others mean nothing, so they are refused rather than lost; so is a folder with
+// both maps, which are of different worlds.
 Result<SavedWorld> load_session(const std::string& folder, const mapping::VoxelMapOptions& options);
 Status save_session(const std::string& folder, const mapping::VoxelGrid& grid,
                     const relocalisation::KeyFrames& key_frames,
+                    const std::vector<SavedObject>& objects);
+Status save_session(const std::string& folder, const mono_slam::SparseMap& map,
                     const std::vector<SavedObject>& objects);
 
 // Whether those could be written, before a run whose map would otherwise be lost.

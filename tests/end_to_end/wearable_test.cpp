@@ -95,7 +95,7 @@ TEST(EndToEndWearable, ThreadedTurnsAndRepeatsAreBitIdentical) {
   EXPECT_EQ(events[0], events[2]);
 }
 
-TEST(EndToEndWearable, APlainColourCameraIsNotTracked) {
+TEST(EndToEndWearable, ACameraThatNobodyAsksToTrackIsNotTracked) {
   const TemporaryFolder folder;
   const std::filesystem::path images = folder / "images";
   std::filesystem::create_directories(images);
@@ -103,9 +103,11 @@ TEST(EndToEndWearable, APlainColourCameraIsNotTracked) {
     cv::imwrite(images / (std::to_string(i) + ".png"),
                 cv::Mat(120, 160, CV_8UC3, cv::Scalar(140, 90, 20)));
   }
-  const ProgramResult run = run_armsreach({"run", "--source", "images:" + images.string(), "--pace",
-                                           "every-frame", "--display", "none", "--events",
-                                           folder / "e.jsonl", "--stats", folder / "s.json"});
+  write_text(folder / "config.yaml", "tracking: {method: none}\n");
+  const ProgramResult run =
+      run_armsreach({"run", "--source", "images:" + images.string(), "--pace", "every-frame",
+                     "--config", folder / "config.yaml", "--display", "none", "--events",
+                     folder / "e.jsonl", "--stats", folder / "s.json"});
   ASSERT_EQ(run.exit_code, 0) << run.output;
   EXPECT_THAT(run.output, ::testing::Not(HasSubstr("tracked")));
   EXPECT_TRUE(events_of(folder / "e.jsonl", "tracking").empty());

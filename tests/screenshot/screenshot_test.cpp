@@ -152,6 +152,32 @@ TEST_P(Screenshot, OperatorDesk) {
   EXPECT_TRUE(matches_golden(drawing->read_picture(), "desk"));
 }
 
+// A plain camera's map: points of each state, one of them hardly known, one still guessed at.
+TEST_P(Screenshot, SparseMap) {
+  const auto drawing = renderer({.width = 960, .height = 540, .layout = Layout::operator_desk});
+  Scene scene = tiny_scene(pinhole(320, 240, 262, 262, 159.5, 119.5), world_from_viewer());
+  scene.depth.release();
+  scene.up_in_world = {0, 0, 1};
+  scene.world_axes = true;
+  for (int i = 0; i < 24; ++i) {
+    MapPoint point;
+    point.point_in_world = {-0.45F + 0.18F * static_cast<float>(i % 6),
+                            -0.3F + 0.2F * static_cast<float>(i / 6), 0};
+    const float along = 1e-5F * static_cast<float>(1 + i * i);
+    point.covariance = Eigen::Vector3f(2e-5F, along, 1e-5F).asDiagonal();
+    point.state = static_cast<FeatureState>(i % 5 == 0 ? 2 : 1);
+    if (i == 9) point.covariance *= 400;
+    if (i == 9) point.state = FeatureState::candidate;
+    scene.points.push_back(point);
+  }
+  for (int i = 0; i < 20; ++i) {
+    const float t = 0.05F * static_cast<float>(i);
+    scene.particles.push_back({{0.5F, -0.4F + t, 0.3F * t}, 1 - t});
+  }
+  drawing->draw(scene, {});
+  EXPECT_TRUE(matches_golden(drawing->read_picture(), "sparse"));
+}
+
 TEST_P(Screenshot, SamePictureTwice) {
   const auto drawing = renderer({.width = 320, .height = 240});
   const Scene scene = full_scene(320, 240);

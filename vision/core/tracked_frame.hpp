@@ -11,8 +11,13 @@
 #include "vision/core/event.hpp"
 #include "vision/core/frame.hpp"
 #include "vision/core/pose.hpp"
+#include "vision/core/world_view.hpp"
 
 namespace armsreach {
+
+namespace mono_slam {
+struct MonoResult;  // vision/mono_slam/mono_slam.hpp
+}
 
 // While initialising there is nothing to align against yet and the pose is the start pose, true by
 // definition. A lost frame's pose is only a prediction.
@@ -36,6 +41,13 @@ struct TrackedFrame {
   // CV_32F Tukey weight of each pixel: 1 fits the reference, 0 does not, NaN was not compared (no
   // depth here, or nothing known there). Empty where there was no alignment.
   cv::Mat weights;
+
+  // Of a frame that was tracked by its picture alone: what the filter knows, in pixels of `camera`,
+  // which is then the picture's, reduced, with its distortion, and in no need of `depth` and the
+  // rest; and its map. Null of others.
+  std::shared_ptr<const mono_slam::MonoResult> mono;
+  WorldViewPtr world;
+  Eigen::Vector3d up_in_world{0, 0, 0};  // against gravity; zero where nobody knows
 };
 using TrackedFramePtr = std::shared_ptr<const TrackedFrame>;
 

@@ -26,7 +26,7 @@ double linearity_index(const Point& point, double inverse_sigma, const Vector3d&
 void MonoSlam::manage_map(const MonoInput& input) {
   fix_distances();
   remove_failed();
-  add_points(input);
+  add_points(input, options_.most_new);
 }
 
 void MonoSlam::record(const std::vector<Look>& looks) {
@@ -90,12 +90,12 @@ std::vector<Vector2d> MonoSlam::taken_pixels() const {
   return out;
 }
 
-void MonoSlam::add_points(const MonoInput& input) {
+void MonoSlam::add_points(const MonoInput& input, int most) {
   const auto rays = std::count_if(landmarks_.begin(), landmarks_.end(),
                                   [](const Landmark& l) { return l.particles.has_value(); });
   int wanted =
       options_.visible_points - static_cast<int>(looks_.size() + static_cast<std::size_t>(rays));
-  wanted = std::min(wanted, options_.most_new);
+  wanted = std::min(wanted, most);
   for (int i = 0; i < wanted; ++i) {
     const auto pixel =
         interesting_pixel(input.grey, input.allowed, taken_pixels(), options_.interest, &random_);

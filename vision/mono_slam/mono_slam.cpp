@@ -22,6 +22,12 @@ CameraCovariance camera_covariance(const Matrix6d& pose) {
   return out;
 }
 
+constexpr double kLeap = 0.03;  // rad a frame of commanded turn, beyond which pictures are smeared
+
+double commanded_turn(const MonoInput& input) {
+  return input.control ? so3_log(input.control->before_from_after.rotation()).norm() : 0;
+}
+
 // Towards the camera.
 Vector3d normal_of(const std::vector<SeenPoint>& points, const Vector3d& camera_in_world) {
   const Vector3d& origin = points[0].point_in_world;
@@ -167,9 +173,18 @@ void MonoSlam::start_as_stated(const MonoInput& input) {
 void MonoSlam::track(const MonoInput& input) {
   const double seconds = std::max(0.0, seconds_from_timestamp(input.time - *last_time_));
   filter_.predict(seconds, options_.motion, input.control);
+  if (commanded_turn(input) > kLeap && (poor_frames_ == 0 || leapt_)) {
+    // A picture taken meanwhile is smeared over the way: like an eye's, it is not looked at.
+    leapt_ = true;
+    return;
+  }
   measure(options_.search_deviations);
-  if (count_inliers() < options_.least_inliers) measure(options_.jerk_deviations);
   inliers_ = count_inliers();
+  if (turned_away()) return add_points(input, options_.visible_points);
+  if (inliers_ < options_.least_inliers) {
+    measure(options_.jerk_deviations);
+    inliers_ = count_inliers();
+  }
   poor_frames_ = inliers_ < options_.least_inliers ? poor_frames_ + 1 : 0;
   if (poor_frames_ >= options_.patience) {
     state_ = TrackingState::lost;
@@ -181,6 +196,12 @@ void MonoSlam::track(const MonoInput& input) {
     weigh_particles();
     manage_map(input);
   }
+}
+
+// Whether a command has turned the camera to where nothing is mapped: then nothing is missing.
+bool MonoSlam::turned_away() {
+  if (inliers_ >= options_.least_inliers) leapt_ = false;
+  return leapt_ && static_cast<int>(looks_.size()) < options_.least_inliers;
 }
 
 int MonoSlam::count_inliers() const {

@@ -149,6 +149,7 @@ class MonoSlam {
   void start_at_origin();
   void track(const MonoInput& input);
   int count_inliers() const;
+  bool turned_away();
   void find_again();
   void forget_target();
   MonoResult result(const MonoInput& input) const;
@@ -167,7 +168,7 @@ class MonoSlam {
   void record(const std::vector<Look>& looks);
   void fix_distances();
   void remove_failed();
-  void add_points(const MonoInput& input);
+  void add_points(const MonoInput& input, int most);
   bool add_point(const MonoInput& input, const Eigen::Vector2d& pixel);
   void make_room();
   void erase(std::size_t landmark);
@@ -187,6 +188,7 @@ class MonoSlam {
   std::int64_t frame_ = -1;
   int inliers_ = 0;
   int poor_frames_ = 0;  // in a row
+  bool leapt_ = false;   // by a command, and little has been seen since
 };
 
 }  // namespace armsreach::mono_slam

@@ -47,6 +47,43 @@ TEST(Config, AVoiceIsAutoOffOrAWavFile) {
   }
 }
 
+TEST(Config, ReadsWhatAPlainCameraIsTrackedBy) {
+  const auto config = read(
+      "tracking: {method: mono}\n"
+      "mono_slam: {target: sheet.yaml, stated_distance: 0.7, visible_points: 20, most_points: 80,\n"
+      "  new_points: particles, forget_start_target_at: 60}\n");
+  ASSERT_TRUE(config) << config.error().message();
+  EXPECT_EQ(config->tracking.method, "mono");
+  EXPECT_EQ(config->mono_slam.target, "sheet.yaml");
+  EXPECT_EQ(config->mono_slam.stated_distance, 0.7);
+  EXPECT_EQ(config->mono_slam.visible_points, 20);
+  EXPECT_EQ(config->mono_slam.most_points, 80);
+  EXPECT_EQ(config->mono_slam.new_points, "particles");
+  EXPECT_EQ(config->mono_slam.forget_start_target_at, 60);
+  EXPECT_FALSE(read("")->mono_slam.forget_start_target_at);
+  for (const char* text :
+       {"tracking: {method: stereo}", "mono_slam: {visible: 3}", "mono_slam: {new_points: lines}",
+        "mono_slam: {visible_points: 50, most_points: 40}", "mono_slam: {stated_distance: 0}",
+        "mono_slam: {forget_start_target_at: 0}"}) {
+    EXPECT_FALSE(read(text)) << text;
+  }
+}
+
+TEST(Config, GazeLeapsToThingsAndPlaces) {
+  const auto config = read("gaze: {mode: saccade, target: [1, -0.5, 2]}\n");
+  ASSERT_TRUE(config) << config.error().message();
+  EXPECT_EQ(config->gaze.point_in_world, Eigen::Vector3d(1, -0.5, 2));
+  EXPECT_EQ(read("gaze: {mode: fixate, target: 'point:12'}")->gaze.target, "point:12");
+  EXPECT_TRUE(read("gaze: {mode: saccade, target: 'object:1'}"));
+  for (const char* text :
+       {"gaze: {target: [1, 2]}", "gaze: {target: [1, 2, 3]}", "gaze: {mode: stare}",
+        "gaze: {mode: saccade, target: 'point:'}", "gaze: {mode: saccade, target: 'point:x'}",
+        "gaze: {mode: follow, target: 'object:1'}",
+        "gaze: {mode: saccade, target: [1, 2, .nan]}"}) {
+    EXPECT_FALSE(read(text)) << text;
+  }
+}
+
 TEST(Config, ReadsWhatTheWearableTakes) {
   const auto config = read(
       "gesture: {vocabulary: asl-digits, table: mine.yaml, window: 0.4, insert: '', reach: 1,\n"
@@ -61,7 +98,7 @@ TEST(Config, ReadsWhatTheWearableTakes) {
   EXPECT_TRUE(config->show.rings);
   EXPECT_FALSE(read("gesture: {fingers: 5}"));
   EXPECT_FALSE(read("gaze: {target: 'colour:'}"));
-  EXPECT_FALSE(read("gaze: {mode: saccade}"));
+  EXPECT_FALSE(read("gaze: {mode: stare}"));
   EXPECT_FALSE(read("show: {outline: true}"));
 }
 

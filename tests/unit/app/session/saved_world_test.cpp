@@ -45,6 +45,28 @@ TEST_F(SavedWorldTest, ASessionComesBackAsItWas) {
   EXPECT_LT(moved.log().norm(), 1e-12);
 }
 
+TEST_F(SavedWorldTest, ASparseMapComesBackAndDoesNotMixWithADenseOne) {
+  mono_slam::SparseMap map;
+  mono_slam::Landmark landmark;
+  landmark.patch.grey = cv::Mat(33, 33, CV_8UC1, cv::Scalar(120));
+  landmark.patch.grey.at<std::uint8_t>(3, 4) = 7;
+  landmark.patch.normal_in_world = {0, 0, -1};
+  landmark.of_target = true;
+  map.landmarks = {landmark};
+  map.points_in_world = {{0.1, 0.2, 0.7}};
+  map.covariance = 1e-4 * Eigen::Matrix3d::Identity();
+  ASSERT_TRUE(save_session(session(), map, {{3, "teapot", Pose()}}));
+  const auto world = load_session(session(), {});
+  ASSERT_TRUE(world) << world.error().message();
+  EXPECT_FALSE(world->map);
+  ASSERT_TRUE(world->sparse_map);
+  EXPECT_EQ(world->sparse_map->points_in_world[0], map.points_in_world[0]);
+  EXPECT_TRUE(world->sparse_map->landmarks[0].of_target);
+  EXPECT_EQ(world->objects.size(), 1U);
+  ASSERT_TRUE(save());
+  EXPECT_FALSE(load_session(session(), {})) << "two maps are two worlds";
+}
+
 TEST_F(SavedWorldTest, NothingSavedYetIsAnEmptyWorld) {
   const auto session = load_session((folder_ / "none").string(), {});
   ASSERT_TRUE(session);

@@ -1,0 +1,229 @@
+// A plain camera that knows where it is, through the command line: from a start target, from one
+// frame of depth, covered, and entered again another day.
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "tests/support/edited_recording.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/recordings.hpp"
+
+namespace armsreach::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr const char* kMono = "tracking: {method: mono}\n";
+
+struct MonoRun {
+  json stats;
+  std::vector<json> events;
+  std::string trajectory;
+
+  std::vector<std::string> states() const {
+    std::vector<std::string> all;
+    for (const json& event : events) {
+      if (event["type"] == "tracking") all.push_back(event["state"]);
+    }
+    return all;
+  }
+};
+
+MonoRun track(const TemporaryFolder& folder, const std::string& source, const std::string& config,
+              const std::vector<std::string>& more = {}) {
+  write_text(folder / "config.yaml", config);
+  std::vector<std::string> arguments{"run",
+                                     "--source",
+                                     source,
+                                     "--experience",
+                                     "wearable",
+                                     "--pace",
+                                     "every-frame",
+                                     "--display",
+                                     "none",
+                                     "--stats",
+                                     folder / "s.json",
+                                     "--events",
+                                     folder / "e.jsonl",
+                                     "--trajectory",
+                                     folder / "t.txt",
+                                     "--config",
+                                     folder / "config.yaml"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const ProgramResult run = run_armsreach(arguments);
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  MonoRun out;
+  if (run.exit_code != 0) return out;
+  out.stats = json::parse(read_text(folder / "s.json"));
+  out.trajectory = read_text(folder / "t.txt");
+  std::istringstream lines(read_text(folder / "e.jsonl"));
+  for (std::string line; std::getline(lines, line);) out.events.push_back(json::parse(line));
+  return out;
+}
+
+bool has_fault(const MonoRun& run, const std::string& text) {
+  return std::any_of(run.events.begin(), run.events.end(), [&](const json& event) {
+    return event["type"] == "fault" &&
+           event["message"].get<std::string>().find(text) != std::string::npos;
+  });
+}
+
+// The desk's frames from `begin` to `end`, black from `cover` for a second, with or without its
+// target.
+fs::path part_of_desk(const fs::path& desk, const fs::path& folder, int begin, int end, int cover,
+                      bool with_target) {
+  fs::create_directories(folder / "frames");
+  std::vector<fs::path> frames;
+  for (const auto& entry : fs::directory_iterator(desk / "frames")) frames.push_back(entry.path());
+  std::sort(frames.begin(), frames.end());
+  for (int i = begin; i < end; ++i) {
+    const fs::path& frame = frames[static_cast<std::size_t>(i)];
+    if (cover >= 0 && i >= cover && i < cover + 30) {
+      const cv::Mat image = cv::imread(frame, cv::IMREAD_GRAYSCALE);
+      cv::imwrite(folder / "frames" / frame.filename(),
+                  cv::Mat(image.size(), CV_8UC1, cv::Scalar(4)));
+    } else {
+      fs::create_symlink(frame, folder / "frames" / frame.filename());
+    }
+  }
+  for (const auto& entry : fs::directory_iterator(desk)) {
+    const bool of_target = entry.path().filename() != "camera.yaml";
+    if (entry.is_regular_file() && (with_target || !of_target))
+      fs::create_symlink(entry.path(), folder / entry.path().filename());
+  }
+  return folder;
+}
+
+TEST(EndToEndMono, TheDeskIsTrackedFromItsTarget) {
+  ARMSREACH_RECORDING_OR_SKIP(desk, "mono/desk");
+  const TemporaryFolder folder;
+  const MonoRun run = track(folder, "images:" + desk.string(), "");
+  EXPECT_THAT(run.states(), ElementsAre("tracking"));
+  EXPECT_EQ(run.stats["tracked_frames"], 320);
+  const json& mono = run.stats["mono_slam"];
+  EXPECT_EQ(mono["scale"], "target");
+  EXPECT_LT(mono["innovation_px"]["median"], 0.7);
+  EXPECT_LT(mono["innovation_px"]["p90"], 1.6);
+  EXPECT_LT(mono["residual_px"]["median"], 0.3);
+  EXPECT_GE(mono["mapped"]["last"], 25);
+  EXPECT_GT(mono["p_trace"], 0);
+  EXPECT_FALSE(has_fault(run, "scale"));
+}
+
+TEST(EndToEndMono, TheTargetMayBeForgotten) {
+  ARMSREACH_RECORDING_OR_SKIP(desk, "mono/desk");
+  const TemporaryFolder folder;
+  const MonoRun run = track(folder, "images:" + desk.string(),
+                            "mono_slam: {forget_start_target_at: 60, new_points: particles}\n");
+  EXPECT_THAT(run.states(), ElementsAre("tracking"));
+}
+
+TEST(EndToEndMono, AScheduleChangesNothing) {
+  ARMSREACH_RECORDING_OR_SKIP(desk, "mono/desk");
+  std::vector<std::string> trajectories;
+  for (const char* config : {"threads: true\n", "threads: false\n"}) {
+    const TemporaryFolder folder;
+    trajectories.push_back(
+        track(folder, "images:" + desk.string(), config, {"--frames", "90"}).trajectory);
+  }
+  EXPECT_FALSE(trajectories[0].empty());
+  EXPECT_EQ(trajectories[0], trajectories[1]);
+}
+
+TEST(EndToEndMono, CoveredForASecondItSaysLostAndComesBack) {
+  ARMSREACH_RECORDING_OR_SKIP(desk, "mono/desk");
+  const TemporaryFolder folder;
+  const fs::path covered = part_of_desk(desk, folder / "covered", 0, 240, 120, true);
+  const MonoRun run = track(folder, "images:" + covered.string(), "");
+  EXPECT_THAT(run.states(), ElementsAre("tracking", "lost", "relocalised", "tracking"));
+  EXPECT_EQ(run.stats["mono_slam"]["times_lost"], 1);
+}
+
+TEST(EndToEndMono, TheMapIsEnteredAgainAnotherDayWithoutTheTarget) {
+  ARMSREACH_RECORDING_OR_SKIP(desk, "mono/desk");
+  const TemporaryFolder folder;
+  const std::string session = folder / "session";
+  const fs::path first = part_of_desk(desk, folder / "first", 0, 200, -1, true);
+  track(folder, "images:" + first.string(), "", {"--session", session});
+  ASSERT_TRUE(fs::exists(folder / "session" / "sparse_map.bin"));
+  const fs::path again = part_of_desk(desk, folder / "again", 150, 250, -1, false);
+  const MonoRun run = track(folder, "images:" + again.string(), "", {"--session", session});
+  EXPECT_THAT(run.states(), ElementsAre("relocalised", "tracking"));
+  EXPECT_EQ(run.stats["mono_slam"]["scale"], "map");
+  EXPECT_GE(run.stats["tracked_frames"], 95);
+}
+
+TEST(EndToEndMono, WithoutTargetOrDepthTheScaleIsSaidToBeStated) {
+  ARMSREACH_RECORDING_OR_SKIP(desk, "mono/desk");
+  const TemporaryFolder folder;
+  const fs::path plain = part_of_desk(desk, folder / "plain", 0, 30, -1, false);
+  const MonoRun run =
+      track(folder, "images:" + plain.string(), "mono_slam: {stated_distance: 0.7}\n");
+  EXPECT_TRUE(has_fault(run, "stated, not measured: what is seen first is 0.7 m away"));
+  EXPECT_EQ(run.stats["mono_slam"]["scale"], "stated");
+}
+
+TEST(EndToEndMono, OneFrameOfDepthGivesTheScaleAndLaterOnesNothing) {
+  ARMSREACH_RECORDING_OR_SKIP(kitchen, "rgbd/redkitchen");
+  const TemporaryFolder folder;
+  const MonoRun with = track(folder, "tum:" + kitchen.string(), kMono, {"--frames", "121"});
+  EXPECT_EQ(with.stats["mono_slam"]["scale"], "depth");
+  const ProgramResult evaluated =
+      run_armsreach({"evaluate", "trajectory", "--estimate", folder / "t.txt", "--truth",
+                     kitchen / "groundtruth.txt", "--scale", "--json", folder / "a.json"});
+  ASSERT_EQ(evaluated.exit_code, 0) << evaluated.output;
+  const json errors = json::parse(read_text(folder / "a.json"));
+  EXPECT_LT(errors["ate_rmse"], 0.015);
+
+  edit_recording(kitchen, folder / "blind",
+                 [](int frame) { return frame == 0 ? FrameEdit::keep : FrameEdit::blind_depth; });
+  const MonoRun blind =
+      track(folder, "tum:" + (folder / "blind").string(), kMono, {"--frames", "121"});
+  EXPECT_FALSE(with.trajectory.empty());
+  EXPECT_EQ(with.trajectory, blind.trajectory);
+}
+
+TEST(EndToEndMono, TheGazeLeapsToAPlaceInTheWorldByWhatTheCameraSees) {
+  const TemporaryFolder folder;
+  const MonoRun run =
+      track(folder,
+            "sim:gaze-sway,mount=shoulder,gimbal=yes,lens=80,width=320,height=240,seed=1,frames=60",
+            "gaze: {mode: saccade, target: [1, 0, 1.5]}\n");
+  std::vector<std::string> modes;
+  for (const json& event : run.events) {
+    if (event["type"] == "gaze") modes.push_back(event["mode"]);
+  }
+  EXPECT_THAT(modes, ElementsAre("saccade", "fixate"));
+  EXPECT_THAT(run.states(), ElementsAre("tracking"));
+}
+
+TEST(EndToEndMono, WhatCannotBeIsRefused) {
+  const TemporaryFolder folder;
+  write_text(folder / "mono.yaml", kMono);
+  write_text(folder / "target.yaml",
+             "mono_slam: {target: nowhere.yaml}\ntracking: {method: mono}\n");
+  write_text(folder / "key.yaml", "mono_slam: {visible: 3}\n");
+  const auto refused = [&](const std::string& config, const std::string& experience) {
+    const ProgramResult run =
+        run_armsreach({"run", "--source", "sim:bench,frames=2", "--experience", experience,
+                       "--display", "none", "--config", folder / config});
+    EXPECT_EQ(run.exit_code, 2) << run.output;
+    return run.output;
+  };
+  EXPECT_THAT(refused("mono.yaml", "workspace"), HasSubstr("not for the workspace"));
+  EXPECT_THAT(refused("target.yaml", "wearable"), HasSubstr("nowhere.yaml"));
+  EXPECT_THAT(refused("key.yaml", "wearable"), HasSubstr("visible_points"));
+}
+
+}  // namespace
+}  // namespace armsreach::test
