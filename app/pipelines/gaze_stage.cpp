@@ -21,7 +21,7 @@ std::optional<Eigen::Vector2d> thing_named(const HandsState& hands, const std::s
 std::optional<Eigen::Vector2d> grasp_target(const HandsState& hands) {
   for (const gesture::Hand& hand : hands.hands) {
     if (!hand.direction) continue;
-    if (const auto thing = thing_named(hands, hands.highlighted)) return thing;
+    if (hands.highlighted) return hands.things[*hands.highlighted].center;
     const gesture::Wedge wedge{hand.seen.center, *hand.direction};
     return wedge.origin + kGraspReach * std::sqrt(hand.seen.area) * wedge.axis();
   }
@@ -33,7 +33,7 @@ std::optional<Eigen::Vector2d> grasp_target(const HandsState& hands) {
 
 GazeStage::GazeStage(const GazeConfig& config, const GimbalModel& model, const Camera& camera)
     : target_(config.target), controller_(model, camera) {
-  if (config.mode == "follow") controller_.follow(config.target);
+  if (config.mode != "rest") controller_.follow(config.target);
 }
 
 GazeOutput GazeStage::process(const GazeStageInput& input) {

@@ -4,6 +4,13 @@
 #include <cmath>
 
 namespace armsreach::gesture {
+namespace {
+
+// s that a gesture must have been shown before a blob is taken for a hand: edges of furniture look
+// like one for a few frames.
+constexpr double kEstablishing = 0.2;
+
+}  // namespace
 
 Gestures GestureInference::update(const HandObservations& seen, Timestamp time) {
   Gestures out;
@@ -40,16 +47,32 @@ Hand GestureInference::follow(int id, Track& track, const HandObservation& seen,
   const auto action = track.machine.step(mode.name.empty() ? kNothing : mode.name, time);
   const GestureTable::State& state = track.machine.state();
 
-  Hand hand{id, seen, mode.name, mode.score, state.name, {}, {}};
-  if (state.cursor) {
-    hand.cursor = track.cursor.filter(seen.fingertip, std::max(std::sqrt(seen.area), 1.0), time);
+  if (mode.name.empty()) {
+    track.gesturing_since.reset();
   } else {
-    track.cursor.reset();
+    if (!track.gesturing_since) track.gesturing_since = time;
+    track.established |= seconds_from_timestamp(time - *track.gesturing_since) >= kEstablishing;
   }
+  follow_cursor(track, seen, time);
+  Hand hand{id, seen, mode.name, mode.score, track.established, state.name, track.cursor, {}};
   if (state.direction) hand.direction = seen.angle;
   track.last_pixel = hand.cursor.value_or(seen.center);
   if (action) actions->push_back({id, *action, track.last_pixel});
   return hand;
+}
+
+// Only a hand that shows its index finger has its tip where the outline is farthest. A frame that
+// tells something else leaves the cursor where it is; a hand that does has none.
+void GestureInference::follow_cursor(Track& track, const HandObservation& seen,
+                                     Timestamp time) const {
+  if (!track.machine.state().cursor || !has_cursor(options_.table, track.filter.mode().name)) {
+    track.filtered_cursor.reset();
+    track.cursor.reset();
+    return;
+  }
+  if (!seen.gesture || !has_cursor(options_.table, *seen.gesture)) return;
+  const double size = std::max(std::sqrt(seen.area), 1.0);
+  track.cursor = track.filtered_cursor.filter(seen.fingertip, size, time);
 }
 
 std::optional<Eigen::Vector2d> midpoint(const std::vector<Hand>& hands) {
