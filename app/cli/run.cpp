@@ -153,7 +153,7 @@ Status run(const RunOptions& options, const Config& config) {
 
   PipelineOptions pipeline;
   if (wearable) {
-    auto hands = make_hands_setup(config.gesture, config.show);
+    auto hands = make_hands_setup(config);
     if (!hands) return hands.error();
     pipeline.hands = *std::move(hands);
   }
@@ -171,6 +171,8 @@ Status run(const RunOptions& options, const Config& config) {
   }
 
   tell_fallbacks(config, *world, *sensor, workspace, log);
+  if (auto fault = cannot_follow(config.gaze, wearable && (*rig)->gimbal_of(sensor->name)))
+    log.write({0, *std::move(fault)});
 
   pipeline.workspace = workspace;
   pipeline.sensor = sensor;

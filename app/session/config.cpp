@@ -91,8 +91,9 @@ bool is_gaze_target(const std::string& target) {
 }
 
 void read_gaze(YamlSection section, GazeConfig* gaze) {
-  section.read<std::string>("mode", &gaze->mode, "follow or rest",
-                            [](const std::string& m) { return m == "follow" || m == "rest"; });
+  section.read<std::string>("mode", &gaze->mode, "auto, follow or rest", [](const std::string& m) {
+    return m == "auto" || m == "follow" || m == "rest";
+  });
   section.read<std::string>("target", &gaze->target, "hand, hands, grasp or colour:NAME",
                             is_gaze_target);
   section.refuse_unknown();

@@ -54,7 +54,7 @@ struct GestureConfig {
 };
 
 struct GazeConfig {
-  std::string mode = "follow";  // or "rest"
+  std::string mode = "auto";    // follow where there is a gimbal; or follow, or rest
   std::string target = "hand";  // or hands (their midpoint), grasp (what it points at), colour:NAME
 };
 
