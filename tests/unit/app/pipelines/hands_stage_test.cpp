@@ -20,7 +20,7 @@ gesture::HandObservation showing(const std::string& gesture) {
   hand.center = {300, 300};
   hand.fingertip = {300, 200};
   hand.area = 100 * 100;
-  hand.outline = {{250, 200}, {350, 200}, {350, 400}, {250, 400}};
+  hand.outline = {{250, 200}, {350, 200}, {350, 300}, {350, 400}, {250, 400}};
   return hand;
 }
 
@@ -105,7 +105,7 @@ TEST_F(HandsStageTest, ABlobThatHasMadeNoGestureIsNoHand) {
   EXPECT_TRUE(show("point", 3).seen.hands->hands.empty());  // an edge that looked like one for once
   show("", 30);
   EXPECT_TRUE(told<GestureEvent>().empty());
-  EXPECT_EQ(show("point", 10).seen.hands->hands.size(), 1U);
+  EXPECT_EQ(show("point", 20).seen.hands->hands.size(), 1U);
   EXPECT_EQ(show("", 60).seen.hands->hands.size(), 1U);  // it is still that hand
 }
 
