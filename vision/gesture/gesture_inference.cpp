@@ -9,6 +9,7 @@ namespace {
 // s that a gesture must have been shown before a blob is taken for a hand: edges of furniture look
 // like one for a few frames.
 constexpr double kEstablishing = 0.2;
+constexpr double kEstablished = 5;  // s without a gesture after which it is not taken for one
 
 }  // namespace
 
@@ -47,18 +48,24 @@ Hand GestureInference::follow(int id, Track& track, const HandObservation& seen,
   const auto action = track.machine.step(mode.name.empty() ? kNothing : mode.name, time);
   const GestureTable::State& state = track.machine.state();
 
-  if (mode.name.empty()) {
-    track.gesturing_since.reset();
-  } else {
-    if (!track.gesturing_since) track.gesturing_since = time;
-    track.established |= seconds_from_timestamp(time - *track.gesturing_since) >= kEstablishing;
-  }
+  const bool established = establish(track, time);
   follow_cursor(track, seen, time);
-  Hand hand{id, seen, mode.name, mode.score, track.established, state.name, track.cursor, {}};
+  Hand hand{id, seen, mode.name, mode.score, established, state.name, track.cursor, {}};
   if (state.direction) hand.direction = seen.angle;
   track.last_pixel = hand.cursor.value_or(seen.center);
   if (action) actions->push_back({id, *action, track.last_pixel});
   return hand;
+}
+
+bool GestureInference::establish(Track& track, Timestamp time) {
+  if (track.filter.mode().name.empty()) {
+    track.gesturing_since.reset();
+  } else {
+    if (!track.gesturing_since) track.gesturing_since = time;
+    if (seconds_from_timestamp(time - *track.gesturing_since) >= kEstablishing)
+      track.established = time;
+  }
+  return track.established && seconds_from_timestamp(time - *track.established) < kEstablished;
 }
 
 // Only a hand that shows its index finger has its tip where the outline is farthest. A frame that

@@ -75,6 +75,7 @@ TEST(GestureInference, ABlobIsAHandOnceItHasMadeAGestureForAWhile) {
   EXPECT_FALSE(show("", 30));
   EXPECT_TRUE(show("point", 12));
   EXPECT_TRUE(show("", 60));
+  EXPECT_FALSE(show("", 150));  // a wall behind the hand that has gone
 }
 
 TEST(GestureInference, ASelectionHappensOnceAtTheCursorWithGesturesInBetween) {
