@@ -119,7 +119,8 @@ void draw_wedge(ImDrawList& list, const Hand& hand, const Map& map) {
   }
 }
 
-// Beside the hand on the side that has more room, at the height of its centre.
+// Beside the hand at the height of its centre, on the right if there is room, else on the left; a
+// hand that fills the image has it above, or where that is outside, over its palm.
 void draw_gesture(ImDrawList& list, const Fonts& fonts, const Hand& hand, const View& view,
                   const Map& map) {
   if (hand.gesture.empty()) return;
@@ -133,8 +134,19 @@ void draw_gesture(ImDrawList& list, const Fonts& fonts, const Hand& hand, const 
   const float aside = map.length(0.85F * hand.size) + 10;
   const ImVec2 centre = map(hand.center);
   const bool right = centre.x + aside + size.x < right_edge;
-  const float x = right ? centre.x + aside : std::max(left_edge, centre.x - aside - size.x);
-  draw_pill(list, *fonts.text, {x, centre.y - size.y / 2}, text, &theme::kAccent);
+  const float left = centre.x - aside - size.x;
+  if (right || left >= left_edge) {
+    const float x = right ? centre.x + aside : left;
+    draw_pill(list, *fonts.text, {x, centre.y - size.y / 2}, text, &theme::kAccent);
+    return;
+  }
+  float top = map.at(hand.center).y();
+  for (const Vector2f& point : hand.outline) top = std::min(top, map.at(point).y());
+  const float highest = map.at({0, 0}).y() + 8;
+  const float above = top - size.y - 10;
+  const float x = std::clamp(centre.x - size.x / 2, left_edge, right_edge - size.x);
+  draw_pill(list, *fonts.text, {x, above >= highest ? above : centre.y - size.y / 2}, text,
+            &theme::kAccent);
 }
 
 // Corner brackets and the name above.

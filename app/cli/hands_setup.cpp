@@ -79,8 +79,25 @@ class Looking {
   std::optional<gesture::ColorBlobFinder> things_;
 };
 
-Result<HandDetectors> make_detectors(const GestureConfig& config, bool show_rings) {
-  auto skin = skin_model(config.skin);
+Result<gesture::ColorModel> read_skin(const std::string& path) {
+  auto skin = skin_model(path);
+  if (!skin || gesture::class_named(*skin, gesture::kSkin) >= 0) return skin;
+  return Error{"has no class called 'skin'", path, "give a file written by `calibrate skin`"};
+}
+
+constexpr const char* kColorTarget = "colour:";
+
+Status check_target(const std::string& target, const std::optional<gesture::ColorModel>& colors) {
+  if (target.rfind(kColorTarget, 0) != 0) return ok();
+  const std::string name = target.substr(std::string(kColorTarget).size());
+  if (colors && gesture::class_named(*colors, name) >= 0) return ok();
+  return Error{"nothing is known by the name '" + name + "'", "gaze.target",
+               "give gesture.colours a file that `learn colour " + name + "` has written to"};
+}
+
+Result<HandDetectors> make_detectors(const GestureConfig& config, const std::string& gaze_target,
+                                     bool show_rings) {
+  auto skin = read_skin(config.skin);
   if (!skin) return skin.error();
   auto templates = load_templates(config.templates, config.vocabulary);
   if (!templates) return templates.error();
@@ -90,6 +107,7 @@ Result<HandDetectors> make_detectors(const GestureConfig& config, bool show_ring
     if (!model) return model.error();
     colors = *std::move(model);
   }
+  if (auto status = check_target(gaze_target, colors); !status) return status.error();
   const auto looking =
       std::make_shared<Looking>(*std::move(skin), *templates, std::move(colors), config.reach);
   HandDetectors detectors;
@@ -101,10 +119,19 @@ Result<HandDetectors> make_detectors(const GestureConfig& config, bool show_ring
 
 }  // namespace
 
-Result<HandsSetup> make_hands_setup(const GestureConfig& config, const ShowConfig& show) {
+std::optional<FaultEvent> cannot_follow(const GazeConfig& gaze, bool gimbal) {
+  const bool asked = gaze.mode == "follow" || (gaze.mode == "auto" && gaze.target != "hand");
+  if (!asked || gimbal) return std::nullopt;
+  return FaultEvent{"gaze", "the camera is on no gimbal: gaze follows nothing",
+                    "give a rig with a gimbal, or a simulated source with gimbal=yes, or remove "
+                    "gaze from the configuration"};
+}
+
+Result<HandsSetup> make_hands_setup(const Config& all) {
+  const GestureConfig& config = all.gesture;
   auto table = read_table(config.table);
   if (!table) return table.error();
-  auto detectors = make_detectors(config, show.rings);
+  auto detectors = make_detectors(config, all.gaze.target, all.show.rings);
   if (!detectors) return detectors.error();
   HandsSetup setup;
   setup.detectors = *std::move(detectors);

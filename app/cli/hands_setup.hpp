@@ -2,12 +2,19 @@
 // brings it along.
 #pragma once
 
+#include <optional>
+
 #include "app/pipelines/hands_stage.hpp"
 #include "app/session/config.hpp"
+#include "vision/core/event.hpp"
 #include "vision/core/result.hpp"
 
 namespace armsreach::app {
 
-Result<HandsSetup> make_hands_setup(const GestureConfig& config, const ShowConfig& show);
+// Nothing where gaze can follow, or nobody has asked it to; `gimbal`: whether one carries the
+// sensor and hands are looked for.
+std::optional<FaultEvent> cannot_follow(const GazeConfig& gaze, bool gimbal);
+
+Result<HandsSetup> make_hands_setup(const Config& all);
 
 }  // namespace armsreach::app

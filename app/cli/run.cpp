@@ -206,7 +206,7 @@ Status run(const RunOptions& options, const Config& config) {
     pipeline.mono->map = world->sparse_map;
   }
   if (parts.wearable) {
-    auto hands = make_hands_setup(config.gesture, config.show);
+    auto hands = make_hands_setup(config);
     if (!hands) return hands.error();
     pipeline.hands = *std::move(hands);
   }
@@ -224,6 +224,8 @@ Status run(const RunOptions& options, const Config& config) {
   }
 
   tell_fallbacks(config, *world, *sensor, parts.workspace, log);
+  const bool can_follow = parts.wearable && (*rig)->gimbal_of(sensor->name);
+  if (auto fault = cannot_follow(config.gaze, can_follow)) log.write({0, *std::move(fault)});
 
   pipeline.workspace = parts.workspace;
   pipeline.sensor = sensor;

@@ -20,7 +20,11 @@ Events HandInteraction::act(const HandCommand& command, Placement* placement,
                             const WorldView* world, const Eigen::Vector3d& viewer_in_world,
                             Timestamp time) const {
   if (command.action == gesture::Action::select) {
-    if (!command.ray_in_world) return {};
+    if (!command.ray_in_world) {
+      if (!world || mesh_.empty()) return {};  // nobody asks where the camera is
+      return {{time, FaultEvent{"interaction", "where the hand points in the map is not known",
+                                "select again once the camera is tracked"}}};
+    }
     Events events = placement->click({*command.ray_in_world, ""}, world, viewer_in_world, time);
     if (selected(*placement) || mesh_.empty()) return events;
     events = placement->click({*command.ray_in_world, mesh_}, world, viewer_in_world, time);

@@ -1,9 +1,26 @@
 #include "app/interaction/remarks.hpp"
 
+#include <sstream>
 #include <string>
 
 namespace armsreach::app {
 namespace {
+
+constexpr Timestamp kGestureLasts = 600'000'000;  // ns: shorter ones are passed on the way
+
+// What can be said of a message that was written to be read: its first part, without paths.
+std::string spoken(const std::string& text) {
+  std::istringstream words(text);
+  std::string out;
+  for (std::string word; words >> word;) {
+    if (word.find('/') != std::string::npos) continue;
+    const bool last = word.back() == ':' || word.back() == ';' || word.back() == ',';
+    if (last) word.pop_back();
+    out += (out.empty() ? "" : " ") + word;
+    if (last) break;
+  }
+  return out;
+}
 
 struct BodyToSentence {
   std::optional<Sentence> operator()(const TrackingEvent& e) const {
@@ -27,7 +44,9 @@ struct BodyToSentence {
     return Sentence{object(e.id), e.object + " deleted."};
   }
   std::optional<Sentence> operator()(const GestureEvent& e) const {
-    return Sentence{"hand " + std::to_string(e.hand), e.name.empty() ? "" : e.name + "."};
+    Sentence sentence{"hand " + std::to_string(e.hand), e.name.empty() ? "" : e.name + "."};
+    sentence.lasting = kGestureLasts;
+    return sentence;
   }
   std::optional<Sentence> operator()(const HighlightEvent& e) const {
     return Sentence{"pointed at", e.name + "."};
@@ -38,7 +57,11 @@ struct BodyToSentence {
   // A voice that cannot speak need not say so.
   std::optional<Sentence> operator()(const FaultEvent& e) const {
     if (e.component == "voice") return std::nullopt;
-    return Sentence{"fault of " + e.component, e.component + ": " + e.message, Urgency::warning};
+    const std::string component = spoken(e.component);
+    const std::string message = spoken(e.message);
+    if (message.empty()) return std::nullopt;
+    return Sentence{"fault of " + e.component,
+                    component.empty() ? message : component + ": " + message, Urgency::warning};
   }
   template <class Silent>
   std::optional<Sentence> operator()(const Silent&) const {
@@ -51,6 +74,8 @@ struct BodyToSentence {
 }  // namespace
 
 std::optional<Sentence> remark_on(const Event& event) {
+  // What was assumed before the first frame is shown; whoever looks on has not lost anything yet.
+  if (event.time == 0 && std::holds_alternative<FaultEvent>(event.body)) return std::nullopt;
   std::optional<Sentence> sentence = std::visit(BodyToSentence{}, event.body);
   if (sentence) sentence->time = event.time;
   return sentence;

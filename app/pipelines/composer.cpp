@@ -1,5 +1,6 @@
 #include "app/pipelines/composer.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <opencv2/imgproc.hpp>
@@ -154,8 +155,15 @@ void Composer::add_objects(const WorldView* world, render::Scene* scene) {
 }
 
 void Composer::add_messages(Timestamp now, render::Scene* scene) {
-  for (const Event& event : log_.recent()) {
+  const auto events = log_.recent();
+  const auto is_tracking = [](const Event& event) {
+    return std::holds_alternative<TrackingEvent>(event.body);
+  };
+  // How the tracking was before it changed is no news.
+  const auto last = std::find_if(events.rbegin(), events.rend(), is_tracking);
+  for (const Event& event : events) {
     if (now - event.time > kMessageTime) continue;
+    if (is_tracking(event) && &event != &*last) continue;
     const std::string text = std::visit(BodyToText{}, event.body);
     if (!text.empty()) scene->messages.push_back({severity_of(event), text});
   }

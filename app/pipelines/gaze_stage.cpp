@@ -28,7 +28,7 @@ std::optional<Eigen::Vector2d> thing_named(const HandsState& hands, const std::s
 std::optional<Eigen::Vector2d> grasp_target(const HandsState& hands) {
   for (const gesture::Hand& hand : hands.hands) {
     if (!hand.direction) continue;
-    if (const auto thing = thing_named(hands, hands.highlighted)) return thing;
+    if (hands.highlighted) return hands.things[*hands.highlighted].center;
     const gesture::Wedge wedge{hand.seen.center, *hand.direction};
     return wedge.origin + kGraspReach * std::sqrt(hand.seen.area) * wedge.axis();
   }
@@ -62,7 +62,7 @@ GazeStage::GazeStage(const GazeConfig& config, const GimbalModel& model, const C
     : config_(config),
       delay_(timestamp_from_seconds(delay)),
       controller_(model, camera, settings_for(up_in_world)) {
-  if (config.mode == "follow") controller_.follow(config.target);
+  if (config.mode == "follow" || config.mode == "auto") controller_.follow(config.target);
 }
 
 GazeOutput GazeStage::process(const GazeStageInput& input) {

@@ -62,9 +62,10 @@ void add_hands(const HandsState& hands, render::Scene* scene) {
     if (hand.cursor)
       scene->cursors.push_back({hand.cursor->cast<float>(), hand.state == "selecting", ""});
   }
-  for (const gesture::ColorBlob& thing : hands.things) {
-    const bool highlighted = thing.name == hands.highlighted;
-    if (!highlighted && thing.name != hands.held) continue;
+  for (std::size_t i = 0; i < hands.things.size(); ++i) {
+    const bool highlighted = hands.highlighted == i;
+    if (!highlighted && hands.held != i) continue;
+    const gesture::ColorBlob& thing = hands.things[i];
     scene->marks.push_back(
         {thing.name,
          {static_cast<float>(thing.box.x), static_cast<float>(thing.box.y)},

@@ -49,6 +49,20 @@ std::optional<std::size_t> meant_by(const gesture::Hand& hand,
   return std::nullopt;
 }
 
+// A hand that shows its index finger points at what it touches.
+bool may_hold(const gesture::Hand& hand) { return !hand.cursor; }
+
+std::optional<std::size_t> nearest_named(const gesture::ColorBlobs& things, const std::string& name,
+                                         const Eigen::Vector2d& place) {
+  std::optional<std::size_t> nearest;
+  for (std::size_t i = 0; i < things.size(); ++i) {
+    if (things[i].name != name) continue;
+    const double distance = (things[i].center - place).norm();
+    if (!nearest || distance < (things[*nearest].center - place).norm()) nearest = i;
+  }
+  return nearest;
+}
+
 }  // namespace
 
 HandsStage::HandsStage(HandsSetup setup)
@@ -70,6 +84,7 @@ HandsOutput HandsStage::process(const TrackedFramePtr& tracked) {
   Sighting sighting;
   if (!colorless) sighting = detectors_.look(frame);
   gesture::Gestures gestures = inference_.update(sighting.hands, frame.time);
+  std::erase_if(gestures.hands, [](const gesture::Hand& hand) { return !hand.established; });
   state->hands = std::move(gestures.hands);
   state->things = std::move(sighting.things);
   tell_gestures(*state, frame.time, &out.news.events);
@@ -97,32 +112,36 @@ void HandsStage::tell_gestures(const HandsState& state, Timestamp time, Events* 
 }
 
 void HandsStage::find_held(const TrackedFrame& tracked, HandsState* state, Events* events) {
-  std::optional<gesture::HandObservation> hand;
-  if (!state->hands.empty()) hand = state->hands.front().seen;
-  const std::optional<gesture::ColorBlob>& held = held_.update(state->things, hand);
-  state->held = held ? held->name : "";
-  if (std::exchange(held_told_, state->held) == state->held || !held) return;
+  gesture::HandObservations holding;
+  for (const gesture::Hand& hand : state->hands) {
+    if (may_hold(hand)) holding.push_back(hand.seen);
+  }
+  const std::optional<gesture::ColorBlob>& held = held_.update(state->things, holding);
+  if (held) state->held = nearest_named(state->things, held->name, held->center);
+  const std::string name = held ? held->name : "";
+  if (std::exchange(held_told_, name) == name || !held) return;
   events->push_back({tracked.frame->time, LabelEvent{held->name, held->center,
                                                      point_in_world_at(tracked, held->center)}});
 }
 
 void HandsStage::find_highlighted(const TrackedFrame& tracked, HandsState* state, Events* events) {
-  std::string meant;
   const std::vector<gesture::Pointable> things = pointables(state->things);
+  std::optional<std::size_t> meant;
   for (const gesture::Hand& hand : state->hands) {
-    const auto index = meant_by(hand, things);
-    if (index && meant.empty()) meant = state->things[*index].name;
+    if (!meant) meant = meant_by(hand, things);
   }
+  if (meant) pointed_place_ = state->things[*meant].center;
   const std::string before = pointed_at_.mode().name;
-  state->highlighted = pointed_at_.update(meant, 0, tracked.frame->time).name;
-  if (state->highlighted.empty() || state->highlighted == before) return;
-  for (const gesture::ColorBlob& thing : state->things) {
-    if (thing.name != state->highlighted) continue;
-    events->push_back(
-        {tracked.frame->time,
-         HighlightEvent{thing.name, thing.center, point_in_world_at(tracked, thing.center)}});
-    return;
-  }
+  const std::string& name =
+      pointed_at_.update(meant ? state->things[*meant].name : "", 0, tracked.frame->time).name;
+  if (name.empty()) return;
+  state->highlighted = nearest_named(state->things, name, pointed_place_);
+  if (name == before || !state->highlighted) return;
+  const gesture::ColorBlob& thing = state->things[*state->highlighted];
+  pointed_place_ = thing.center;
+  events->push_back(
+      {tracked.frame->time,
+       HighlightEvent{thing.name, thing.center, point_in_world_at(tracked, thing.center)}});
 }
 
 }  // namespace armsreach::app

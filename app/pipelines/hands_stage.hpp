@@ -35,11 +35,11 @@ struct HandsSetup {
 };
 
 struct HandsState {
-  std::vector<gesture::Hand> hands;
+  std::vector<gesture::Hand> hands;  // the established ones
   gesture::ColorBlobs things;
-  std::string held;           // name of the thing in the first hand, or empty
-  std::string highlighted;    // name of the thing that is pointed at, or empty
-  std::vector<double> rings;  // as of the detectors
+  std::optional<std::size_t> held;         // of the things: the one in a hand
+  std::optional<std::size_t> highlighted;  // the one that is pointed at
+  std::vector<double> rings;               // as of the detectors
 };
 using HandsStatePtr = std::shared_ptr<const HandsState>;
 
@@ -75,7 +75,8 @@ class HandsStage final : public Stage<TrackedFramePtr, HandsOutput> {
   gesture::GestureInference inference_;
   gesture::HeldThing held_;
   gesture::ModalFilter pointed_at_;
-  std::map<int, std::string> told_;  // gesture of each hand
+  Eigen::Vector2d pointed_place_{0, 0};  // px, centre of the thing that was pointed at last
+  std::map<int, std::string> told_;      // gesture of each hand
   std::string held_told_;
   bool colorless_ = false;
 };

@@ -148,12 +148,13 @@ void read_gaze_target(YamlSection& section, GazeConfig* gaze) {
 }
 
 void read_gaze(YamlSection section, GazeConfig* gaze) {
-  section.read<std::string>("mode", &gaze->mode, "follow, saccade, fixate or rest",
+  section.read<std::string>("mode", &gaze->mode, "auto, follow, saccade, fixate or rest",
                             [](const std::string& m) {
-                              return is_one_of(m, {"follow", "saccade", "fixate", "rest"});
+                              return is_one_of(m, {"auto", "follow", "saccade", "fixate", "rest"});
                             });
   read_gaze_target(section, gaze);
-  if (gaze->mode == "follow" && (gaze->point_in_world || !is_seen_target(gaze->target)))
+  const bool follows = gaze->mode == "auto" || gaze->mode == "follow";
+  if (follows && (gaze->point_in_world || !is_seen_target(gaze->target)))
     section.complain("'" + section.path() + "mode' must be saccade or fixate for a point");
   section.refuse_unknown();
 }

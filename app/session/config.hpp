@@ -68,7 +68,7 @@ struct GestureConfig {
 };
 
 struct GazeConfig {
-  std::string mode = "follow";  // saccade, fixate or rest
+  std::string mode = "auto";  // follow where there is a gimbal; or follow, saccade, fixate, rest
   // hand, hands (their midpoint), grasp (what it points at), colour:NAME; to leap to and to hold
   // also point:ID of the sparse map and object:ID inserted.
   std::string target = "hand";

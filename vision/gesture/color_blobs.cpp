@@ -81,12 +81,13 @@ double gap(const ColorBlob& blob, const HandObservation& hand) {
 
 // What this frame alone says. The thing in the hand has the wider limit.
 std::optional<ColorBlob> HeldThing::seen(const ColorBlobs& blobs,
-                                         const HandObservation& hand) const {
+                                         const HandObservations& hands) const {
   const ColorBlob* best = nullptr;
   double least = std::numeric_limits<double>::infinity();
   for (const ColorBlob& blob : blobs) {
     const bool in_hand = held_ && held_->name == blob.name;
-    const double distance = gap(blob, hand);
+    double distance = std::numeric_limits<double>::infinity();
+    for (const HandObservation& hand : hands) distance = std::min(distance, gap(blob, hand));
     if (distance > (in_hand ? options_.release : options_.take)) continue;
     // Among things that are near, the one already in the hand stays there.
     const double rank = in_hand ? distance - options_.release : distance;
@@ -98,8 +99,8 @@ std::optional<ColorBlob> HeldThing::seen(const ColorBlobs& blobs,
 }
 
 const std::optional<ColorBlob>& HeldThing::update(const ColorBlobs& blobs,
-                                                  const std::optional<HandObservation>& hand) {
-  const auto now = hand ? seen(blobs, *hand) : std::nullopt;
+                                                  const HandObservations& hands) {
+  const auto now = seen(blobs, hands);
   const auto name = now ? std::optional(now->name) : std::nullopt;
   const auto held_name = held_ ? std::optional(held_->name) : std::nullopt;
   if (name == held_name) {

@@ -51,22 +51,22 @@ class ColorBlobFinder {
 double gap(const ColorBlob& blob, const HandObservation& hand);
 
 struct HeldOptions {
-  double take = 0.15;     // widths of the hand: a thing this near is held
+  double take = 0.06;     // widths of the hand: a thing this near touches it and is held
   double release = 0.45;  // and is let go beyond this
   int frames = 4;         // in a row that a change needs
 };
 
-// Which thing is held, over time. It changes its mind only after several frames that agree.
+// Which thing is held by any of the hands that could, over time. It changes its mind only after
+// several frames that agree.
 class HeldThing {
  public:
   explicit HeldThing(const HeldOptions& options = {}) : options_(options) {}
 
   // Of one frame. Returns the thing held now: its last blob, or nothing.
-  const std::optional<ColorBlob>& update(const ColorBlobs& blobs,
-                                         const std::optional<HandObservation>& hand);
+  const std::optional<ColorBlob>& update(const ColorBlobs& blobs, const HandObservations& hands);
 
  private:
-  std::optional<ColorBlob> seen(const ColorBlobs& blobs, const HandObservation& hand) const;
+  std::optional<ColorBlob> seen(const ColorBlobs& blobs, const HandObservations& hands) const;
 
   HeldOptions options_;
   std::optional<ColorBlob> held_;

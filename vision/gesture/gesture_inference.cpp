@@ -4,6 +4,14 @@
 #include <cmath>
 
 namespace armsreach::gesture {
+namespace {
+
+// s that a gesture must have been shown before a blob is taken for a hand: edges of furniture look
+// like one for a few frames.
+constexpr double kEstablishing = 0.2;
+constexpr double kEstablished = 5;  // s without a gesture after which it is not taken for one
+
+}  // namespace
 
 Gestures GestureInference::update(const HandObservations& seen, Timestamp time) {
   Gestures out;
@@ -40,16 +48,38 @@ Hand GestureInference::follow(int id, Track& track, const HandObservation& seen,
   const auto action = track.machine.step(mode.name.empty() ? kNothing : mode.name, time);
   const GestureTable::State& state = track.machine.state();
 
-  Hand hand{id, seen, mode.name, mode.score, state.name, {}, {}};
-  if (state.cursor) {
-    hand.cursor = track.cursor.filter(seen.fingertip, std::max(std::sqrt(seen.area), 1.0), time);
-  } else {
-    track.cursor.reset();
-  }
+  const bool established = establish(track, time);
+  follow_cursor(track, seen, time);
+  Hand hand{id, seen, mode.name, mode.score, established, state.name, track.cursor, {}};
   if (state.direction) hand.direction = seen.angle;
   track.last_pixel = hand.cursor.value_or(seen.center);
   if (action) actions->push_back({id, *action, track.last_pixel});
   return hand;
+}
+
+bool GestureInference::establish(Track& track, Timestamp time) {
+  if (track.filter.mode().name.empty()) {
+    track.gesturing_since.reset();
+  } else {
+    if (!track.gesturing_since) track.gesturing_since = time;
+    if (seconds_from_timestamp(time - *track.gesturing_since) >= kEstablishing)
+      track.established = time;
+  }
+  return track.established && seconds_from_timestamp(time - *track.established) < kEstablished;
+}
+
+// Only a hand that shows its index finger has its tip where the outline is farthest. A frame that
+// tells something else leaves the cursor where it is; a hand that does has none.
+void GestureInference::follow_cursor(Track& track, const HandObservation& seen,
+                                     Timestamp time) const {
+  if (!track.machine.state().cursor || !has_cursor(options_.table, track.filter.mode().name)) {
+    track.filtered_cursor.reset();
+    track.cursor.reset();
+    return;
+  }
+  if (!seen.gesture || !has_cursor(options_.table, *seen.gesture)) return;
+  const double size = std::max(std::sqrt(seen.area), 1.0);
+  track.cursor = track.filtered_cursor.filter(seen.fingertip, size, time);
 }
 
 std::optional<Eigen::Vector2d> midpoint(const std::vector<Hand>& hands) {

@@ -22,11 +22,14 @@ namespace armsreach::gesture {
 struct Hand {
   int id = 0;
   HandObservation seen;
-  std::string gesture;                    // after the modal filter; empty: none
-  double score = 0;                       // mean g of the frames that agree on it
-  std::string state;                      // of the table
-  std::optional<Eigen::Vector2d> cursor;  // px, the index finger's tip, while the state has one
-  std::optional<double> direction;        // rad, 0 up, clockwise, while the state has one
+  std::string gesture;  // after the modal filter; empty: none
+  double score = 0;     // mean g of the frames that agree on it
+  // It has made a gesture in the last seconds; else it may be anything of skin's colour.
+  bool established = false;
+  std::string state;  // of the table
+  // px, the index finger's tip, while the state has one and the hand shows it.
+  std::optional<Eigen::Vector2d> cursor;
+  std::optional<double> direction;  // rad, 0 up, clockwise, while the state has one
 };
 
 struct HandAction {
@@ -58,11 +61,16 @@ class GestureInference {
   struct Track {
     ModalFilter filter;
     GestureMachine machine;
-    OneEuro cursor;
+    OneEuro filtered_cursor;
+    std::optional<Eigen::Vector2d> cursor = {};
+    std::optional<Timestamp> gesturing_since = {};
+    std::optional<Timestamp> established = {};  // when it was seen to be a hand last
     Eigen::Vector2d last_pixel{0, 0};
   };
   Hand follow(int id, Track& track, const HandObservation& seen, Timestamp time,
               std::vector<HandAction>* actions);
+  static bool establish(Track& track, Timestamp time);
+  void follow_cursor(Track& track, const HandObservation& seen, Timestamp time) const;
 
   InferenceOptions options_;
   HandIdentity identity_;

@@ -124,6 +124,11 @@ std::string_view name(Action action) {
   return "";
 }
 
+bool has_cursor(const GestureTable& table, const std::string& gesture) {
+  return std::any_of(table.transitions.begin(), table.transitions.end(),
+                     [&](const auto& t) { return t.on == gesture && table.states[t.to].cursor; });
+}
+
 Result<GestureTable> read_gesture_table(std::istream& in, const std::string& where) {
   const char* remedy =
       "tables have states: [{name, cursor, direction}] and "

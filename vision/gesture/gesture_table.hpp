@@ -38,6 +38,10 @@ struct GestureTable {
   std::vector<Transition> transitions;  // the first that fits is taken
 };
 
+// Whether a hand that shows `gesture` points with its index finger's tip: the table leads it to a
+// state with a cursor.
+bool has_cursor(const GestureTable& table, const std::string& gesture);
+
 // `where` names the input in errors. Keys, states and actions that are not known are refused.
 Result<GestureTable> read_gesture_table(std::istream& in, const std::string& where);
 

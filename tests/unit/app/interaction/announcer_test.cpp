@@ -64,6 +64,38 @@ TEST(Announcer, WhatEndedAndBeganAgainIsSaidAgain) {
   EXPECT_EQ(announcer.due(3 * Announcer::kPause).size(), 1U);
 }
 
+TEST(Announcer, WhatMustLastIsNotSaidEarlierAndNotWhenItIsOver) {
+  Announcer announcer;
+  const auto note = [&](const std::string& text, Timestamp time) {
+    announcer.note({"hand", text, Urgency::remark, time, 600});
+  };
+  note("point.", 1000);
+  note("point.", 1400);  // still the same
+  EXPECT_THAT(announcer.due(1599), IsEmpty());
+  EXPECT_THAT(texts(announcer.due(1600)), ElementsAre("point."));
+  // Passed on the way while the subject rests: only what is there when its turn comes.
+  note("L.", 1700);
+  note("open.", 1000 + Announcer::kPause);
+  EXPECT_THAT(announcer.due(1599 + Announcer::kPause), IsEmpty());
+  EXPECT_THAT(texts(announcer.due(1600 + Announcer::kPause)), ElementsAre("open."));
+}
+
+TEST(Announcer, RemarksThatComeAndGoAreMadeOnceInAWhileWarningsEachTime) {
+  const auto said = [](Urgency urgency) {
+    Announcer announcer;
+    int count = 0;
+    for (int i = 0; i < 100; ++i) {
+      const Timestamp now = i * Announcer::kPause / 2;  // 1 s
+      announcer.note({"hand", i % 2 ? "point." : "", urgency, now});
+      count += static_cast<int>(announcer.due(now).size());
+    }
+    return count;
+  };
+  EXPECT_LE(said(Urgency::remark), 20);  // one in 5 s
+  EXPECT_GE(said(Urgency::remark), 15);
+  EXPECT_EQ(said(Urgency::warning), 50);
+}
+
 TEST(Announcer, TheMostUrgentIsFirstThenTheOldest) {
   Announcer announcer;
   announcer.note({"z", "remark", Urgency::remark, 1});
@@ -98,6 +130,13 @@ TEST(Remarks, EventsAndTheirSentences) {
   EXPECT_EQ(remark(MoveEvent{"teapot", 3, {}}), "");
   EXPECT_EQ(remark(FaultEvent{"camera", "it has gone", "plug it in"}),
             "fault of camera|camera: it has gone");
+  // Paths are for the eye, and so is what was assumed before the first frame.
+  EXPECT_EQ(remark(FaultEvent{"video:/a/b.mp4", "/a/b.mp4: cannot be read, it ends early", ""}),
+            "fault of video:/a/b.mp4|cannot be read");
+  EXPECT_FALSE(remark_on({0, FaultEvent{"video", "no calibration: assuming one", "give one"}}));
+  const auto gesture = remark_on({7, GestureEvent{0, "point", 0.9, {0, 0}, 0}});
+  ASSERT_TRUE(gesture);
+  EXPECT_GT(gesture->lasting, 0);
   // These would never end.
   EXPECT_EQ(remark(FaultEvent{"voice", "no sound device", "connect one"}), "");
   EXPECT_EQ(remark(SpeechEvent{"Tracking."}), "");

@@ -71,8 +71,11 @@ TEST_F(HandInteractionTest, AnObjectThatIsPointedAtIsSelectedInsteadOfInsertingA
   EXPECT_FALSE(placement_.objects().at(0).selected);
 }
 
-TEST_F(HandInteractionTest, WithoutAPoseOrAMeshNothingIsInserted) {
-  EXPECT_TRUE(hand_.act({Action::select, {}}, &placement_, &world_, kViewer, 5).empty());
+TEST_F(HandInteractionTest, WithoutAPoseOrAMeshNothingIsInsertedAndItIsSaidWhereAMapIs) {
+  const Events lost = hand_.act({Action::select, {}}, &placement_, &world_, kViewer, 5);
+  ASSERT_EQ(lost.size(), 1U);
+  EXPECT_FALSE(std::get<FaultEvent>(lost[0].body).remedy.empty());
+  EXPECT_TRUE(hand_.act({Action::select, {}}, &placement_, nullptr, kViewer, 5).empty());
   hand_ = HandInteraction("");
   EXPECT_TRUE(act(Action::select).empty());
   EXPECT_TRUE(placement_.objects().empty());

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "app/pipelines/gaze_stage.hpp"
+#include "app/pipelines/hands_scene.hpp"
 
 namespace armsreach::app {
 namespace {
@@ -19,6 +20,7 @@ gesture::HandObservation showing(const std::string& gesture) {
   hand.center = {300, 300};
   hand.fingertip = {300, 200};
   hand.area = 100 * 100;
+  hand.outline = {{250, 200}, {350, 200}, {350, 300}, {350, 400}, {250, 400}};
   return hand;
 }
 
@@ -94,14 +96,23 @@ TEST_F(HandsStageTest, ImagesWithoutColourAreOneFaultAndTheFramesGoOn) {
   for (int i = 0; i < 5; ++i) EXPECT_TRUE(next(cv::Scalar::all(90), CV_8UC1).seen.tracked);
   EXPECT_EQ(told<FaultEvent>().size(), 1U);
   EXPECT_TRUE(told<GestureEvent>().empty());
-  for (int i = 0; i < 5; ++i) next();
+  for (int i = 0; i < 10; ++i) next();
   EXPECT_EQ(told<GestureEvent>().size(), 1U);
+}
+
+TEST_F(HandsStageTest, ABlobThatHasMadeNoGestureIsNoHand) {
+  show("", 60);
+  EXPECT_TRUE(show("point", 3).seen.hands->hands.empty());  // an edge that looked like one for once
+  show("", 30);
+  EXPECT_TRUE(told<GestureEvent>().empty());
+  EXPECT_EQ(show("point", 20).seen.hands->hands.size(), 1U);
+  EXPECT_EQ(show("", 60).seen.hands->hands.size(), 1U);  // it is still that hand
 }
 
 TEST_F(HandsStageTest, WhatTheCursorIsOnIsHighlightedOnce) {
   sees_.things = {blob("ball", 310, 190), blob("mug", 500, 100)};
   const HandsOutput out = show("point", 30);
-  EXPECT_EQ(out.seen.hands->highlighted, "ball");
+  EXPECT_EQ(out.seen.hands->highlighted, 0U);
   const auto highlights = told<HighlightEvent>();
   ASSERT_EQ(highlights.size(), 1U);
   EXPECT_EQ(highlights[0].name, "ball");
@@ -110,7 +121,40 @@ TEST_F(HandsStageTest, WhatTheCursorIsOnIsHighlightedOnce) {
 
 TEST_F(HandsStageTest, WhatAGraspPointsAtIsHighlighted) {
   sees_.things = {blob("ball", 310, 60), blob("mug", 500, 300)};
-  EXPECT_EQ(show("grasp", 30).seen.hands->highlighted, "ball");
+  EXPECT_EQ(show("grasp", 30).seen.hands->highlighted, 0U);
+}
+
+TEST_F(HandsStageTest, OfTwoThingsOfOneNameTheOneThatIsPointedAtIsMeant) {
+  sees_.things = {blob("ball", 500, 400), blob("ball", 310, 190)};
+  const HandsOutput out = show("point", 30);
+  EXPECT_EQ(out.seen.hands->highlighted, 1U);
+  const auto highlights = told<HighlightEvent>();
+  ASSERT_EQ(highlights.size(), 1U);
+  EXPECT_EQ(highlights[0].pixel, Eigen::Vector2d(310, 190));
+  render::Scene scene;
+  add_hands(*out.seen.hands, &scene);
+  ASSERT_EQ(scene.marks.size(), 1U);
+  EXPECT_EQ(scene.marks[0].corner, Eigen::Vector2f(290, 170));
+}
+
+TEST_F(HandsStageTest, GazeAfterAGraspTurnsToTheThingThatItPointsAt) {
+  sees_.things = {blob("ball", 600, 400), blob("ball", 310, 60)};
+  const HandsOutput out = show("grasp", 30);
+  GazeStage gaze({"follow", "grasp"}, GimbalModel(), *sensor_->color_camera);
+  const Timestamp time = out.seen.tracked->frame->time;
+  const auto angles =
+      gaze.process({out.seen, GimbalState{time, {0, 0, 0}, {0, 0, 0}}}).command->angles;
+  EXPECT_GT(angles[1], 0.1);             // up to the one above the hand,
+  EXPECT_LT(std::abs(angles[0]), 0.05);  // not right to the other
+}
+
+TEST_F(HandsStageTest, AHandHoldsWhatItTouchesUnlessItPoints) {
+  sees_.things = {blob("ball", 560, 60), blob("ball", 372, 300)};  // 2 px right of the hand's side
+  EXPECT_EQ(show("grasp", 20).seen.hands->held, 1U);
+  EXPECT_EQ(told<LabelEvent>().at(0).pixel, Eigen::Vector2d(372, 300));
+  EXPECT_FALSE(show("point", 20).seen.hands->held);
+  sees_.things[1] = blob("ball", 385, 300);  // 15 px: beside it
+  EXPECT_FALSE(show("grasp", 20).seen.hands->held);
 }
 
 TEST_F(HandsStageTest, SelectingCarriesTheRayOfItsFrameWhereThePoseIsKnown) {

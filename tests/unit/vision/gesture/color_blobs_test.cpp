@@ -78,7 +78,7 @@ TEST(HeldThing, TheGapIsMeasuredInHands) {
 
 TEST(HeldThing, ChangesOnlyAfterSeveralFramesAndHoldsOnLonger) {
   HeldThing held({.take = 0.15, .release = 0.45, .frames = 3});
-  const auto hand = std::optional(hand_at(100, 80));
+  const HandObservations hand{hand_at(100, 80)};
   EXPECT_FALSE(held.update({thing("ball", 162)}, hand));
   EXPECT_FALSE(held.update({thing("ball", 162)}, hand));
   EXPECT_FALSE(held.update({}, hand));  // a gap in what is seen starts the count again
@@ -96,10 +96,15 @@ TEST(HeldThing, ChangesOnlyAfterSeveralFramesAndHoldsOnLonger) {
   EXPECT_FALSE(held.update({thing("ball", 260)}, hand));  // let go
 }
 
+TEST(HeldThing, EitherHandMayHoldIt) {
+  HeldThing held({.take = 0.15, .release = 0.45, .frames = 1});
+  EXPECT_TRUE(held.update({thing("ball", 420)}, {hand_at(100, 80), hand_at(400, 80)}));
+}
+
 TEST(HeldThing, WithoutAHandNothingIsHeld) {
   HeldThing held({.take = 0.15, .release = 0.45, .frames = 1});
-  ASSERT_TRUE(held.update({thing("ball", 120)}, hand_at(100, 80)));
-  EXPECT_FALSE(held.update({thing("ball", 120)}, std::nullopt));
+  ASSERT_TRUE(held.update({thing("ball", 120)}, {hand_at(100, 80)}));
+  EXPECT_FALSE(held.update({thing("ball", 120)}, {}));
 }
 
 }  // namespace

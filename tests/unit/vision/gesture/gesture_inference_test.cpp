@@ -43,6 +43,41 @@ TEST(GestureInference, APointingHandHasACursorAndAGraspingOneADirection) {
   EXPECT_EQ(out.hands[0].direction, 0.4);
 }
 
+TEST(GestureInference, ACursorStaysWhereAFrameTellsNothingAndGoesWithTheIndexFinger) {
+  GestureInference inference(shipped());
+  Gestures out;
+  int frame = 0;
+  const auto show = [&](const HandObservation& hand) {
+    out = inference.update({hand}, frame++ * kFrame);
+  };
+  for (int i = 0; i < 15; ++i) show(showing("point"));
+  HandObservation another = showing("");
+  another.fingertip = {150, 330};  // of the thumb, say
+  show(another);
+  ASSERT_TRUE(out.hands[0].cursor);
+  EXPECT_EQ(*out.hands[0].cursor, Eigen::Vector2d(300, 140));
+  for (int i = 0; i < 5; ++i) show(another);  // most of the filter's window
+  EXPECT_EQ(out.hands[0].state, "pointing");  // it may yet be an L
+  EXPECT_EQ(out.hands[0].gesture, "");
+  EXPECT_FALSE(out.hands[0].cursor);
+}
+
+TEST(GestureInference, ABlobIsAHandOnceItHasMadeAGestureForAWhile) {
+  GestureInference inference(shipped());
+  Gestures out;
+  int frame = 0;
+  const auto show = [&](const std::string& gesture, int frames) {
+    for (int i = 0; i < frames; ++i) out = inference.update({showing(gesture)}, frame++ * kFrame);
+    return out.hands[0].established;
+  };
+  EXPECT_FALSE(show("", 60));
+  EXPECT_FALSE(show("point", 3));
+  EXPECT_FALSE(show("", 30));
+  EXPECT_TRUE(show("point", 12));
+  EXPECT_TRUE(show("", 60));
+  EXPECT_FALSE(show("", 150));  // a wall behind the hand that has gone
+}
+
 TEST(GestureInference, ASelectionHappensOnceAtTheCursorWithGesturesInBetween) {
   GestureInference inference(shipped());
   std::vector<HandAction> actions;
