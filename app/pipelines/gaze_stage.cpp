@@ -25,7 +25,7 @@ std::optional<Eigen::Vector2d> grasp_target(const HandsState& hands) {
     const gesture::Wedge wedge{hand.seen.center, *hand.direction};
     return wedge.origin + kGraspReach * std::sqrt(hand.seen.area) * wedge.axis();
   }
-  if (hands.hands.empty()) return hands.likely_hand;
+  if (hands.hands.empty()) return std::nullopt;
   return hands.hands.front().seen.center;
 }
 
@@ -55,8 +55,8 @@ std::optional<Eigen::Vector2d> GazeStage::target(const HandsState& hands) const 
   if (target_.rfind(kColor, 0) == 0)
     return thing_named(hands, target_.substr(std::string(kColor).size()));
   if (target_ == "grasp") return grasp_target(hands);
-  if (target_ == "hands" && !hands.hands.empty()) return gesture::midpoint(hands.hands);
-  if (hands.hands.empty()) return hands.likely_hand;
+  if (target_ == "hands") return gesture::midpoint(hands.hands);
+  if (hands.hands.empty()) return std::nullopt;
   return hands.hands.front().seen.center;
 }
 

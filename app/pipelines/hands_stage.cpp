@@ -13,8 +13,6 @@ namespace {
 
 constexpr double kPointedWindow = 0.25;  // s over which a thing must be what is mostly pointed at
 constexpr double kCursorReach = 0.3;     // sizes of the hand between a cursor and what it means
-constexpr double kLikelyAge = 1;         // s that a blob must have lasted to be likely a hand,
-constexpr double kLikelyScore = 0.8;     // and g of the gesture it is most like
 constexpr int kSampleStep = 16;          // px between the pixels that are looked at for colour
 constexpr int kGreyLevels = 4;           // by which the channels of a grey image may differ
 
@@ -48,13 +46,6 @@ std::optional<std::size_t> meant_by(const gesture::Hand& hand,
                                     const std::vector<gesture::Pointable>& things) {
   if (hand.cursor) return gesture::under_cursor(*hand.cursor, kCursorReach * size_of(hand), things);
   if (hand.direction) return gesture::in_wedge({hand.seen.center, *hand.direction}, things);
-  return std::nullopt;
-}
-
-std::optional<Eigen::Vector2d> likely_hand(const std::vector<gesture::Hand>& hands) {
-  for (const gesture::Hand& hand : hands) {
-    if (hand.age >= kLikelyAge && hand.seen.score >= kLikelyScore) return hand.seen.center;
-  }
   return std::nullopt;
 }
 
@@ -93,9 +84,7 @@ HandsOutput HandsStage::process(const TrackedFramePtr& tracked) {
   Sighting sighting;
   if (!colorless) sighting = detectors_.look(frame);
   gesture::Gestures gestures = inference_.update(sighting.hands, frame.time);
-  const std::optional<Eigen::Vector2d> likely = likely_hand(gestures.hands);
   std::erase_if(gestures.hands, [](const gesture::Hand& hand) { return !hand.established; });
-  if (gestures.hands.empty()) state->likely_hand = likely;
   state->hands = std::move(gestures.hands);
   state->things = std::move(sighting.things);
   tell_gestures(*state, frame.time, &out.news.events);

@@ -36,9 +36,6 @@ struct HandsSetup {
 
 struct HandsState {
   std::vector<gesture::Hand> hands;  // the established ones
-  // px, centre of what has long looked like a hand without making a gesture, where none is
-  // established: enough to look at it, not to draw it.
-  std::optional<Eigen::Vector2d> likely_hand;
   gesture::ColorBlobs things;
   std::optional<std::size_t> held;         // of the things: the one in a hand
   std::optional<std::size_t> highlighted;  // the one that is pointed at

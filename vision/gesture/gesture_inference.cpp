@@ -18,12 +18,13 @@ Gestures GestureInference::update(const HandObservations& seen, Timestamp time) 
   const std::vector<int> ids = identity_.assign(seen, time);
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const auto track = tracks_.find(ids[i]);
-    Track& of = track != tracks_.end() ? track->second
-                                       : tracks_
-                                             .emplace(ids[i], Track{ModalFilter(options_.window),
-                                                                    GestureMachine(options_.table),
-                                                                    OneEuro(options_.cursor), time})
-                                             .first->second;
+    Track& of =
+        track != tracks_.end()
+            ? track->second
+            : tracks_
+                  .emplace(ids[i], Track{ModalFilter(options_.window),
+                                         GestureMachine(options_.table), OneEuro(options_.cursor)})
+                  .first->second;
     out.hands.push_back(follow(ids[i], of, seen[i], time, &out.actions));
   }
   std::sort(out.hands.begin(), out.hands.end(),
@@ -49,9 +50,7 @@ Hand GestureInference::follow(int id, Track& track, const HandObservation& seen,
 
   const bool established = establish(track, time);
   follow_cursor(track, seen, time);
-  Hand hand{id,         seen,         mode.name,
-            mode.score, established,  seconds_from_timestamp(time - track.first_seen),
-            state.name, track.cursor, {}};
+  Hand hand{id, seen, mode.name, mode.score, established, state.name, track.cursor, {}};
   if (state.direction) hand.direction = seen.angle;
   track.last_pixel = hand.cursor.value_or(seen.center);
   if (action) actions->push_back({id, *action, track.last_pixel});

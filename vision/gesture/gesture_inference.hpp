@@ -26,7 +26,6 @@ struct Hand {
   double score = 0;     // mean g of the frames that agree on it
   // It has made a gesture in the last seconds; else it may be anything of skin's colour.
   bool established = false;
-  double age = 0;     // s since it was first seen
   std::string state;  // of the table
   // px, the index finger's tip, while the state has one and the hand shows it.
   std::optional<Eigen::Vector2d> cursor;
@@ -63,7 +62,6 @@ class GestureInference {
     ModalFilter filter;
     GestureMachine machine;
     OneEuro filtered_cursor;
-    Timestamp first_seen = 0;
     std::optional<Eigen::Vector2d> cursor = {};
     std::optional<Timestamp> gesturing_since = {};
     std::optional<Timestamp> established = {};  // when it was seen to be a hand last

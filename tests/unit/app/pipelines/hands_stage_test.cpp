@@ -124,18 +124,6 @@ TEST_F(HandsStageTest, WhatAGraspPointsAtIsHighlighted) {
   EXPECT_EQ(show("grasp", 30).seen.hands->highlighted, 0U);
 }
 
-TEST_F(HandsStageTest, GazeFollowsAHandWithoutAGestureOnceItHasLasted) {
-  const auto followed = [&](const HandsOutput& out) {
-    GazeStage gaze({"follow", "hand"}, GimbalModel(), *sensor_->color_camera);
-    const Timestamp time = out.seen.tracked->frame->time;
-    return gaze.process({out.seen, GimbalState{time, {0, 0, 0}, {0, 0, 0}}}).command->angles.norm();
-  };
-  EXPECT_NEAR(followed(show("", 15)), 0, 1e-9);  // half a second: an edge in passing
-  EXPECT_GT(followed(show("", 30)), 0.05);
-  sees_.hands.front().score = 0.6;  // it looks like no hand
-  EXPECT_NEAR(followed(next()), 0, 1e-9);
-}
-
 TEST_F(HandsStageTest, OfTwoThingsOfOneNameTheOneThatIsPointedAtIsMeant) {
   sees_.things = {blob("ball", 500, 400), blob("ball", 310, 190)};
   const HandsOutput out = show("point", 30);
