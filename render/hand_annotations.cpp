@@ -143,7 +143,7 @@ void draw_gesture(ImDrawList& list, const Fonts& fonts, const Hand& hand, const 
   float top = map.at(hand.center).y();
   for (const Vector2f& point : hand.outline) top = std::min(top, map.at(point).y());
   const float highest = map.at({0, 0}).y() + 8;
-  const float above = top - size.y - 10;
+  const float above = top - size.y - 24;  // clear of the cursor on the fingertip
   const float x = std::clamp(centre.x - size.x / 2, left_edge, right_edge - size.x);
   draw_pill(list, *fonts.text, {x, above >= highest ? above : centre.y - size.y / 2}, text,
             &theme::kAccent);

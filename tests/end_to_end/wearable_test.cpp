@@ -77,22 +77,71 @@ TEST(EndToEndWearable, AScriptedHandIsUnderstoodInOrderAndInsertsWhereItPoints) 
   EXPECT_EQ(stats["stages"]["hands"]["faults"], 0);
 }
 
+// What a run over a worn camera on a gimbal leaves: its events and the last picture.
+struct GazeRun {
+  std::string events;
+  cv::Mat picture;
+};
+
+constexpr const char* kPointingHand = R"(hands:
+  - {side: right, frame: camera, keys: [
+      {t: 0, pose: point, at: [-0.1, -0.03, 0.42], turn_deg: [0, 180, -12]},
+      {t: 3, pose: point, at: [-0.1, -0.03, 0.42], turn_deg: [0, 180, -12]}]}
+)";
+
+GazeRun gaze_run(const std::string& mode, const std::string& threads) {
+  const TemporaryFolder folder;
+  write_text(folder / "config.yaml", "threads: " + threads + "\ngesture: {skin: simulated}\n" +
+                                         "gaze: {mode: " + mode + "}\n");
+  write_text(folder / "hand.yaml", kPointingHand);
+  std::vector<std::string> arguments =
+      run_of(folder,
+             "sim-hand:sim:gaze,mount=shoulder,gimbal=yes,frames=45,script=" +
+                 (folder / "hand.yaml").string(),
+             "wearable");
+  *std::find(arguments.begin(), arguments.end(), "none") = "osmesa";
+  arguments.insert(arguments.end(), {"--config", folder / "config.yaml", "--screenshots",
+                                     (folder / "pictures").string()});
+  const ProgramResult run = run_armsreach(arguments);
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  return {read_text(folder / "e.jsonl"), cv::imread(folder / "pictures/frame_000044.png")};
+}
+
+double difference(const cv::Mat& a, const cv::Mat& b) {
+  // Messages are in the lower half.
+  return cv::norm(a.rowRange(0, a.rows / 2), b.rowRange(0, b.rows / 2), cv::NORM_L1) /
+         static_cast<double>(a.total());
+}
+
 // With a gimbal the camera itself moves by what was seen: the loop is closed in lock-step.
 TEST(EndToEndWearable, ThreadedTurnsAndRepeatsAreBitIdentical) {
-  std::vector<std::string> events;
-  for (const char* threads : {"true", "false", "true"}) {
-    const TemporaryFolder folder;
-    write_text(folder / "config.yaml", std::string("threads: ") + threads + "\n");
-    std::vector<std::string> arguments =
-        run_of(folder, "sim:kitchen-table,mount=shoulder,gimbal=yes,frames=90", "wearable");
-    arguments.insert(arguments.end(), {"--config", folder / "config.yaml"});
-    const ProgramResult run = run_armsreach(arguments);
-    ASSERT_EQ(run.exit_code, 0) << run.output;
-    events.push_back(read_text(folder / "e.jsonl"));
+  const GazeRun first = gaze_run("follow", "true");
+  ASSERT_FALSE(first.picture.empty());
+  EXPECT_THAT(first.events, HasSubstr("\"gaze\""));
+  for (const char* threads : {"false", "true"}) {
+    const GazeRun again = gaze_run("follow", threads);
+    EXPECT_EQ(again.events, first.events);
+    ASSERT_EQ(again.picture.size(), first.picture.size());
+    EXPECT_EQ(difference(again.picture, first.picture), 0);
   }
-  EXPECT_THAT(events[0], HasSubstr("\"gaze\""));
-  EXPECT_EQ(events[0], events[1]);
-  EXPECT_EQ(events[0], events[2]);
+  // The camera has turned: one at rest sees something else. The same noise is in both.
+  const GazeRun resting = gaze_run("rest", "true");
+  ASSERT_EQ(resting.picture.size(), first.picture.size());
+  EXPECT_GT(difference(resting.picture, first.picture), 1);
+}
+
+TEST(EndToEndWearable, FollowingWithoutAGimbalIsAFault) {
+  const TemporaryFolder folder;
+  for (const auto& [config, faults] :
+       {std::pair("gaze: {mode: follow}", 1U), {"gaze: {mode: auto}", 0U}}) {
+    write_text(folder / "config.yaml", config);
+    std::vector<std::string> arguments = run_of(folder, "sim:bench,frames=2", "wearable");
+    arguments.insert(arguments.end(), {"--config", folder / "config.yaml"});
+    ASSERT_EQ(run_armsreach(arguments).exit_code, 0);
+    std::vector<json> told = events_of(folder / "e.jsonl", "fault");
+    std::erase_if(told, [](const json& fault) { return fault["component"] != "gaze"; });
+    EXPECT_EQ(told.size(), faults) << config;
+  }
 }
 
 TEST(EndToEndWearable, ACameraThatNobodyAsksToTrackIsNotTracked) {
@@ -135,10 +184,18 @@ TEST(EndToEndWearable, GreyImagesAreOneFaultWithARemedy) {
 TEST(EndToEndWearable, FilesThatAreWrongAreNamed) {
   const TemporaryFolder folder;
   write_text(folder / "table.yaml", "states: [{name: a}]\ntransitions: [{from: b}]\n");
+  const std::string skin = ARMSREACH_SOURCE_DIR "/assets/skin/simulated.yaml";
+  std::string others = read_text(skin);
+  others.replace(others.find("skin"), 4, "mugs");
+  write_text(folder / "things.yaml", others);
+  const std::string things = folder / "things.yaml";
   for (const auto& [config, complaint] :
        {std::pair<std::string, std::string>{"gesture: {templates: nowhere}", "no templates"},
         {"gesture: {skin: nowhere.yaml}", "nowhere.yaml"},
         {"gesture: {vocabulary: semaphore}", "semaphore"},
+        {"gesture: {skin: " + things + "}", "no class called 'skin'"},
+        {"gesture: {colours: " + skin + "}", "a model of skin"},
+        {"gaze: {target: \"colour:ball\"}", "'ball'"},
         {"gesture: {table: " + (folder / "table.yaml").string() + "}", "transitions[0].from"}}) {
     write_text(folder / "config.yaml", config);
     std::vector<std::string> arguments = run_of(folder, "sim:bench,frames=2", "wearable");
