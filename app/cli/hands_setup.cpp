@@ -79,12 +79,6 @@ class Looking {
   std::optional<gesture::ColorBlobFinder> things_;
 };
 
-Result<gesture::ColorModel> read_skin(const std::string& path) {
-  auto skin = skin_model(path);
-  if (!skin || gesture::class_named(*skin, gesture::kSkin) >= 0) return skin;
-  return Error{"has no class called 'skin'", path, "give a file written by `calibrate skin`"};
-}
-
 constexpr const char* kColorTarget = "colour:";
 
 Status check_target(const std::string& target, const std::optional<gesture::ColorModel>& colors) {
@@ -97,7 +91,7 @@ Status check_target(const std::string& target, const std::optional<gesture::Colo
 
 Result<HandDetectors> make_detectors(const GestureConfig& config, const std::string& gaze_target,
                                      bool show_rings) {
-  auto skin = read_skin(config.skin);
+  auto skin = skin_model(config.skin);
   if (!skin) return skin.error();
   auto templates = load_templates(config.templates, config.vocabulary);
   if (!templates) return templates.error();

@@ -140,7 +140,7 @@ TEST_F(HandsStageTest, OfTwoThingsOfOneNameTheOneThatIsPointedAtIsMeant) {
 TEST_F(HandsStageTest, GazeAfterAGraspTurnsToTheThingThatItPointsAt) {
   sees_.things = {blob("ball", 600, 400), blob("ball", 310, 60)};
   const HandsOutput out = show("grasp", 30);
-  GazeStage gaze({"follow", "grasp"}, GimbalModel(), *sensor_->color_camera);
+  GazeStage gaze({"follow", "grasp", {}}, GimbalModel(), *sensor_->color_camera, {0, -1, 0}, 0);
   const Timestamp time = out.seen.tracked->frame->time;
   const auto angles =
       gaze.process({out.seen, GimbalState{time, {0, 0, 0}, {0, 0, 0}}}).command->angles;
@@ -175,7 +175,7 @@ TEST_F(HandsStageTest, GazeTurnsToWhatItIsToldToFollow) {
   sees_.things = {blob("mug", 100, 240)};
   const HandsOutput out = show("point", 10);  // the hand is left of and below the middle
   const auto commanded = [&](const std::string& target) {
-    GazeStage gaze({"follow", target}, GimbalModel(), *sensor_->color_camera);
+    GazeStage gaze({"follow", target, {}}, GimbalModel(), *sensor_->color_camera, {0, -1, 0}, 0);
     const Timestamp time = out.seen.tracked->frame->time;
     return gaze.process({out.seen, GimbalState{time, {0, 0, 0}, {0, 0, 0}}}).command->angles;
   };
