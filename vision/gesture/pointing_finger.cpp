@@ -3,11 +3,13 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Geometry>
+
 namespace armsreach::gesture {
 namespace {
 
-// In square roots of the hand's area: the finger is what lies this near its tip, and its middle line
-// runs there; nearer, the round end says little, and farther on the knuckles begin.
+// In square roots of the hand's area: the finger is what lies this near its tip, and its middle
+// line runs there; nearer, the round end says little, and farther on the knuckles begin.
 constexpr double kLength = 0.5;
 
 Eigen::Vector2d direction(double angle) { return {std::sin(angle), -std::cos(angle)}; }
@@ -17,8 +19,8 @@ void for_each_pixel(const HandShape& shape, Use use) {
   for (int row = 0; row < shape.mask.rows; ++row) {
     const auto* pixels = shape.mask.ptr<std::uint8_t>(row);
     for (int col = 0; col < shape.mask.cols; ++col) {
-      if (pixels[col] != 0) use(Eigen::Vector2d(shape.mask_origin + shape.mask_scale *
-                                                                        Eigen::Vector2d(col, row)));
+      if (pixels[col] != 0)
+        use(Eigen::Vector2d(shape.mask_origin + shape.mask_scale * Eigen::Vector2d(col, row)));
     }
   }
 }
@@ -34,17 +36,19 @@ Eigen::Vector2d farthest_along(const HandShape& shape, const Eigen::Vector2d& ax
   return tip;
 }
 
-// From the middle of the finger to its tip: the mean of its pixels lies on its middle line.
+// From the finger's farther half to its nearer one: the means of their pixels lie on its middle
+// line, wherever on the round end the tip was found.
 Eigen::Vector2d axis_at(const HandShape& shape, const Eigen::Vector2d& tip) {
   const double length = kLength * std::sqrt(shape.area);
-  Eigen::Vector2d sum(0, 0);
-  double count = 0;
+  Eigen::Vector3d near(0, 0, 0);  // sums of x, y and 1
+  Eigen::Vector3d far(0, 0, 0);
   for_each_pixel(shape, [&](const Eigen::Vector2d& at) {
-    if ((at - tip).norm() > length) return;
-    sum += at;
-    ++count;
+    const double distance = (at - tip).norm();
+    if (distance > length) return;
+    (distance < length / 2 ? near : far) += at.homogeneous();
   });
-  return tip - sum / count;
+  if (near.z() == 0 || far.z() == 0) return {0, 0};
+  return near.hnormalized() - far.hnormalized();
 }
 
 }  // namespace
