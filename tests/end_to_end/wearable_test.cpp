@@ -193,7 +193,7 @@ TEST(EndToEndWearable, FilesThatAreWrongAreNamed) {
        {std::pair<std::string, std::string>{"gesture: {templates: nowhere}", "no templates"},
         {"gesture: {skin: nowhere.yaml}", "nowhere.yaml"},
         {"gesture: {vocabulary: semaphore}", "semaphore"},
-        {"gesture: {skin: " + things + "}", "no class called 'skin'"},
+        {"gesture: {skin: " + things + "}", "no class 'skin'"},
         {"gesture: {colours: " + skin + "}", "a model of skin"},
         {"gaze: {target: \"colour:ball\"}", "'ball'"},
         {"gesture: {table: " + (folder / "table.yaml").string() + "}", "transitions[0].from"}}) {
