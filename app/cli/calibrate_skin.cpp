@@ -160,7 +160,8 @@ Status check_gestures(const Lessons& lessons) {
   constexpr int kOneIn = 5;
   auto templates = load_templates("", "wearable");
   if (!templates) return templates.error();
-  const gesture::GestureDetector detector(*std::move(templates));
+  const auto how = gesture::options_for(*templates);
+  const gesture::GestureDetector detector(*std::move(templates), how);
   int told = 0;
   for (const View& view : lessons.views()) {
     const auto hands = detector.detect(view.skin, view.bgr);

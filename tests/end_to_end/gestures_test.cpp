@@ -161,7 +161,7 @@ TEST(EndToEndGestures, AFolderOfTemplatesKeepsOneLayout) {
   const auto refused = learn({"M", hand, "--rings", "linear"});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.output, HasSubstr("5 rings of 180 samples, radii 0.08125 0.1625"));
-  EXPECT_THAT(refused.output, HasSubstr("12 rings of 90 samples, radii 0.2 0.3"));
+  EXPECT_THAT(refused.output, HasSubstr("16 rings of 90 samples, radii 0.3"));
   EXPECT_EQ(learn({"M", hand}).exit_code, 0);  // takes the folder's
   const auto found = run_armsreach(
       {"detect", "gestures", hand, "--templates", templates, "--json", folder / "found.json"});

@@ -23,9 +23,10 @@ double likeness_of(const RingMatch& match, const GestureDetectorOptions& options
 
 // What was looked at, and how like each gesture it is.
 struct Reading {
-  HandShape shape;  // of the size at which the best gesture matched
-  std::vector<RingMatch> matches;
-  double best = -1;  // likeness
+  HandShape shape;                         // of the size at which the best gesture matched
+  std::vector<RingMatch> matches;          // each at the size that suits it best
+  std::vector<RingMatch> matches_at_size;  // of `shape`
+  double best = -1;                        // likeness
 };
 
 // A gesture, and by how much it is likelier than every other.
@@ -92,7 +93,7 @@ HandShape sized(const HandShape& shape, double size) {
 
 Reading read_as(const RingMatcher& matcher, const HandShape& shape, Hands hand,
                 const GestureDetectorOptions& options) {
-  Reading reading{shape, {}};
+  Reading reading{shape, {}, {}};
   for (const double size : options.sizes) {
     const HandShape at_size = sized(shape, size);
     const auto these =
@@ -104,6 +105,7 @@ Reading read_as(const RingMatcher& matcher, const HandShape& shape, Hands hand,
       if (likeness <= reading.best) continue;
       reading.best = likeness;
       reading.shape = at_size;
+      reading.matches_at_size = these;
     }
   }
   return reading;
@@ -199,7 +201,7 @@ GestureDetector::GestureDetector(TemplateSet set, const GestureDetectorOptions& 
     : options_(options), finder_(options.hands), matcher_(std::move(set)) {}
 
 HandObservation GestureDetector::observe(const HandBlob& blob, double clutter) const {
-  Reading reading{blob.readings[0], {}};
+  Reading reading{blob.readings[0], {}, {}};
   for (const HandShape& one : blob.readings) {
     Reading next = read(matcher_, one, options_);
     if (next.best > reading.best) reading = std::move(next);
@@ -209,8 +211,8 @@ HandObservation GestureDetector::observe(const HandBlob& blob, double clutter) c
   seen.outline = blob.outline;
   seen.center = reading.shape.center;
   seen.area = reading.shape.area;
-  for (std::size_t i = 0; i < matches.size(); ++i)
-    seen.scores[matcher_.gestures()[i]] = matches[i].g;
+  for (const RingMatch& match : reading.matches_at_size)
+    seen.scores[matcher_.gesture_of(match)] = match.g;
   if (!matches.empty()) {
     const Likeliest likeliest = likeliest_of(matches, options_);
     const RingMatch& match = matches[likeliest.gesture];
