@@ -1,4 +1,5 @@
 // armsreach calibrate camera: intrinsics from a chessboard, in images or shown to a camera.
+#include <algorithm>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>

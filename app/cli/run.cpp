@@ -33,6 +33,10 @@ Result<Config> read_config_file(const std::string& path) {
   return read_config(in, path);
 }
 
+Pace pace_of(const RunOptions& options) {
+  return options.pace == "live" ? Pace::live : Pace::every_frame;
+}
+
 PresenterOptions presenter_options(const RunOptions& options, const Config& config,
                                    const SensorInfo& sensor) {
   PresenterOptions out;
@@ -161,6 +165,32 @@ std::string target_beside_source(const RunOptions& options) {
   return options.sources.size() == 1 ? target_of_source(options.sources.front()) : "";
 }
 
+Result<PipelineOptions> pipeline_options(const RunOptions& options, const Config& config,
+                                         const Parts& parts, const SavedWorld& world,
+                                         const SensorInfoPtr& sensor) {
+  PipelineOptions out;
+  if (parts.mono) {
+    auto mono = make_mono_setup(config.mono_slam, target_beside_source(options), options.seed);
+    if (!mono) return mono.error();
+    out.mono = *std::move(mono);
+    out.mono->map = world.sparse_map;
+  }
+  if (parts.wearable) {
+    auto hands = make_hands_setup(config);
+    if (!hands) return hands.error();
+    out.hands = *std::move(hands);
+  }
+  out.workspace = parts.workspace;
+  out.sensor = sensor;
+  out.pace = pace_of(options);
+  out.frames = options.frames;
+  out.trajectory = options.trajectory;
+  out.stats = options.stats;
+  out.map = options.map;
+  out.session = options.session;
+  return out;
+}
+
 void print_summary(const RunSummary& s, bool tracked) {
   std::printf("%lld frames in %.1f s (%.1f Hz)", static_cast<long long>(s.frames), s.seconds,
               s.rate);
@@ -178,7 +208,7 @@ Status run(const RunOptions& options) {
 }
 
 Status run(const RunOptions& options, const Config& config) {
-  const Pace pace = options.pace == "live" ? Pace::live : Pace::every_frame;
+  const Pace pace = pace_of(options);
   if (pace == Pace::live && !config.threads) {
     return Error{"threads: false is for --pace every-frame", options.config,
                  "remove it, or add --pace every-frame"};
@@ -198,18 +228,8 @@ Status run(const RunOptions& options, const Config& config) {
   const Parts parts = parts_for(options, config, *world, *sensor);
   if (auto status = check_parts(parts, options, config, *world, *sensor); !status) return status;
 
-  PipelineOptions pipeline;
-  if (parts.mono) {
-    auto mono = make_mono_setup(config.mono_slam, target_beside_source(options), options.seed);
-    if (!mono) return mono.error();
-    pipeline.mono = *std::move(mono);
-    pipeline.mono->map = world->sparse_map;
-  }
-  if (parts.wearable) {
-    auto hands = make_hands_setup(config);
-    if (!hands) return hands.error();
-    pipeline.hands = *std::move(hands);
-  }
+  auto pipeline = pipeline_options(options, config, parts, *world, sensor);
+  if (!pipeline) return pipeline.error();
 
   EventLog log;
   if (auto status = log.open(options.events); !status) return status;
@@ -227,16 +247,8 @@ Status run(const RunOptions& options, const Config& config) {
   const bool can_follow = parts.wearable && (*rig)->gimbal_of(sensor->name);
   if (auto fault = cannot_follow(config.gaze, can_follow)) log.write({0, *std::move(fault)});
 
-  pipeline.workspace = parts.workspace;
-  pipeline.sensor = sensor;
-  pipeline.pace = pace;
-  pipeline.frames = options.frames;
-  pipeline.trajectory = options.trajectory;
-  pipeline.stats = options.stats;
-  pipeline.map = options.map;
-  pipeline.session = options.session;
-  pipeline.narrator = narrator->get();
-  auto summary = run_pipeline(**rig, **presenter, log, config, pipeline, *std::move(world));
+  pipeline->narrator = narrator->get();
+  auto summary = run_pipeline(**rig, **presenter, log, config, *pipeline, *std::move(world));
   const Status spoken = (*narrator)->close();
   const Status logged = log.close();
   if (!summary) return summary.error();

@@ -173,17 +173,14 @@ double fine_angle(const RingMatcher& matcher, const HandShape& shape, const Ring
   return std::remainder(turn + match.angle + sum / kPhases.size(), 2 * std::numbers::pi);
 }
 
-double own_angle(const RingMatcher& matcher, const HandShape& shape, const RingMatch& like) {
+double own_angle(const RingMatcher& matcher, const HandShape& shape, std::size_t gesture,
+                 bool mirrored) {
   const double turn = long_axis(shape);
   auto straight = straight_angle(shape);
   if (straight) *straight -= turn;
   const auto matches = matcher.match(signature_of(shape, matcher.set().layout, turn),
-                                     like.mirrored ? Hands::mirrored : Hands::as_learnt, straight);
-  const std::string& gesture = matcher.gesture_of(like);
-  const auto same = std::find_if(matches.begin(), matches.end(), [&](const RingMatch& match) {
-    return matcher.gesture_of(match) == gesture;
-  });
-  return fine_angle(matcher, shape, *same, turn);
+                                     mirrored ? Hands::mirrored : Hands::as_learnt, straight);
+  return fine_angle(matcher, shape, matches[gesture], turn);
 }
 
 std::vector<HandBlob> find_hands(const HandFinder& finder, const cv::Mat& skin,
@@ -211,14 +208,14 @@ HandObservation GestureDetector::observe(const HandBlob& blob, double clutter) c
   seen.outline = blob.outline;
   seen.center = reading.shape.center;
   seen.area = reading.shape.area;
-  for (const RingMatch& match : reading.matches_at_size)
-    seen.scores[matcher_.gesture_of(match)] = match.g;
+  for (std::size_t i = 0; i < reading.matches_at_size.size(); ++i)
+    seen.scores[matcher_.gestures()[i]] = reading.matches_at_size[i].g;
   if (!matches.empty()) {
     const Likeliest likeliest = likeliest_of(matches, options_);
     const RingMatch& match = matches[likeliest.gesture];
     seen.likeliest = matcher_.gestures()[likeliest.gesture];
     seen.score = match.g;
-    seen.angle = own_angle(matcher_, reading.shape, match);
+    seen.angle = own_angle(matcher_, reading.shape, likeliest.gesture, match.mirrored);
     const HandEvidence evidence{likeliest.likeness, likeliest.margin, contact_of(blob), clutter};
     if (blob.plausible && is_told(match, evidence)) seen.gesture = seen.likeliest;
   }

@@ -47,10 +47,12 @@ GestureTemplate template_of(const std::string& gesture, const HandShape& shape,
 double fine_angle(const RingMatcher& matcher, const HandShape& shape, const RingMatch& match,
                   double turn = 0);
 
-// The angle to the template of the same gesture that is nearest when sampling begins at the shape's
-// own longest extent: a turned copy is sampled at the same places, so that it has the same nearest
-// template, and turned copies agree within half a degree whatever the bank.
-double own_angle(const RingMatcher& matcher, const HandShape& shape, const RingMatch& like);
+// The angle to the template of a gesture (by its place in the matcher's) that is nearest when
+// sampling begins at the shape's own longest extent: a turned copy is sampled at the same places,
+// so that it has the same nearest template, and turned copies agree within half a degree but for
+// near ties.
+double own_angle(const RingMatcher& matcher, const HandShape& shape, std::size_t gesture,
+                 bool mirrored);
 
 // The blobs of a mask, without the shadow of the hand and, where the largest is no hand, parted
 // from walls, both by `bgr`.

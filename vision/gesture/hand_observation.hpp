@@ -18,10 +18,11 @@ struct HandObservation {
   std::string likeliest;                 // told or not; empty without templates
   double score = 0;                      // g of the likeliest gesture's best template, -1..1
   std::map<std::string, double> scores;  // g of the best template of each gesture
-  // Of the hand in the image against its template: rad, 0 upright (fingers up), clockwise positive.
+  // Of the hand in the image against its template, and of `point` that of the finger itself: rad, 0
+  // upright (fingers up), clockwise positive.
   double angle = 0;
   Eigen::Vector2d center{0, 0};     // px, of the hand without its forearm
-  Eigen::Vector2d fingertip{0, 0};  // px, the outline's farthest point along the hand's axis
+  Eigen::Vector2d fingertip{0, 0};  // px, the farthest point along that axis
   double area = 0;                  // px^2, without the forearm
   std::vector<cv::Point> outline;   // px, closed, with the forearm
 };

@@ -36,9 +36,6 @@ class RingMatcher {
 
   const TemplateSet& set() const { return set_; }
   const std::vector<std::string>& gestures() const { return gestures_; }  // in order of names
-  const std::string& gesture_of(const RingMatch& match) const {
-    return set_.templates[static_cast<std::size_t>(match.index)].gesture;
-  }
   // The best template of each gesture. `straight`: how far, in rad, a hand that is straight on the
   // forearm that was seen is turned from upright; nothing where no forearm was seen.
   std::vector<RingMatch> match(const RingSignature& seen, Hands hands,
