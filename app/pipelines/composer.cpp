@@ -8,6 +8,7 @@
 #include "app/pipelines/background.hpp"
 #include "app/pipelines/hands_scene.hpp"
 #include "app/pipelines/mono_scene.hpp"
+#include "render/room.hpp"
 #include "vision/core/pyramid.hpp"
 #include "vision/core/registration.hpp"
 
@@ -54,6 +55,10 @@ struct BodyToText {
   }
 };
 
+Viewer viewer_of(const TrackedFrame& tracked, const render::Scene& scene) {
+  return {tracked.world_from_camera.translation(), render::known_up(scene)};
+}
+
 }  // namespace
 
 void UserInput::add(const UserInput& more) {
@@ -83,15 +88,14 @@ ComposedPtr Composer::process(const ComposeInput& input) {
     registration_ = input.registration;
     if (registration_->fault) tell({tracked.frame->time, *registration_->fault});
   }
-  for (const HandNews& news : std::exchange(news_, {})) apply(news, world, tracked);
-  apply(std::exchange(pending_, {}), world, tracked);
-  composed->events = events_;
-  composed->events_before = events_told_ - static_cast<std::int64_t>(events_.size());
-
   auto scene = std::make_shared<render::Scene>();
   add_video(tracked, scene.get());
   add_tracking(tracked, scene.get());
   if (input.map) scene->surface = input.map->surface;
+  for (const HandNews& news : std::exchange(news_, {})) apply(news, world, tracked, *scene);
+  apply(std::exchange(pending_, {}), world, tracked, *scene);
+  composed->events = events_;
+  composed->events_before = events_told_ - static_cast<std::int64_t>(events_.size());
   if (tracked.mono) add_sparse_map(tracked, scene.get());
   add_objects(world, scene.get());
   if (input.hands) add_hands(*input.hands, scene.get());
@@ -169,21 +173,24 @@ void Composer::add_messages(Timestamp now, render::Scene* scene) {
   }
 }
 
-void Composer::apply(const HandNews& news, const WorldView* world, const TrackedFrame& tracked) {
+void Composer::apply(const HandNews& news, const WorldView* world, const TrackedFrame& tracked,
+                     const render::Scene& scene) {
   for (const Event& event : news.events) tell(event);
-  const Eigen::Vector3d& viewer = tracked.world_from_camera.translation();
+  if (news.commands.empty()) return;
+  const Viewer viewer = viewer_of(tracked, scene);
   for (const HandCommand& command : news.commands) {
     for (Event& event : hands_.act(command, &placement_, world, viewer, tracked.frame->time))
       tell(std::move(event));
   }
 }
 
-void Composer::apply(const UserInput& user, const WorldView* world, const TrackedFrame& tracked) {
+void Composer::apply(const UserInput& user, const WorldView* world, const TrackedFrame& tracked,
+                     const render::Scene& scene) {
   const Timestamp time = tracked.frame->time;
-  const Eigen::Vector3d& viewer = tracked.world_from_camera.translation();
   for (const FaultEvent& fault : user.faults) tell({time, fault});
   for (const Click& click : user.clicks) {
-    for (Event& event : placement_.click(click, world, viewer, time)) tell(std::move(event));
+    for (Event& event : placement_.click(click, world, viewer_of(tracked, scene), time))
+      tell(std::move(event));
   }
   if (!user.delete_selected) return;
   for (Event& event : placement_.remove_selected(world, time)) tell(std::move(event));
