@@ -34,12 +34,9 @@ render::Severity severity_of(const Event& event) {
                                                         : render::Severity::info;
 }
 
-// What is worth a line of text; the rest is shown where it happens, and what is said is about an
-// event that is shown itself.
+// What is worth a line of text; the rest is shown where it happens, the tracking's state as such,
+// and what is said is about an event that is shown itself.
 struct BodyToText {
-  std::string operator()(const TrackingEvent& e) const {
-    return std::string(armsreach::name(e.state));
-  }
   std::string operator()(const InsertEvent& e) const { return e.object + " inserted"; }
   std::string operator()(const MoveEvent& e) const { return e.object + " moved"; }
   std::string operator()(const DeleteEvent& e) const { return e.object + " deleted"; }
@@ -159,15 +156,8 @@ void Composer::add_objects(const WorldView* world, render::Scene* scene) {
 }
 
 void Composer::add_messages(Timestamp now, render::Scene* scene) {
-  const auto events = log_.recent();
-  const auto is_tracking = [](const Event& event) {
-    return std::holds_alternative<TrackingEvent>(event.body);
-  };
-  // How the tracking was before it changed is no news.
-  const auto last = std::find_if(events.rbegin(), events.rend(), is_tracking);
-  for (const Event& event : events) {
+  for (const Event& event : log_.recent()) {
     if (now - event.time > kMessageTime) continue;
-    if (is_tracking(event) && &event != &*last) continue;
     const std::string text = std::visit(BodyToText{}, event.body);
     if (!text.empty()) scene->messages.push_back({severity_of(event), text});
   }

@@ -16,8 +16,8 @@ constexpr double kPointedWindow = 0.25;  // s over which a thing must be what is
 constexpr double kCursorReach = 0.3;     // sizes of the hand between a cursor and what it means
 
 FaultEvent no_color() {
-  return {"hands", "the images have no colour, so no hands can be found",
-          "switch the camera to colour, or leave 'wearable' out of --experience"};
+  return {"hands", "hands need a colour camera, and these images are grey",
+          "take a colour camera, or switch this one to colour; all else goes on without hands"};
 }
 
 double size_of(const gesture::Hand& hand) { return std::sqrt(std::max(hand.seen.area, 1.0)); }
