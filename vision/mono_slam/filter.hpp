@@ -75,6 +75,12 @@ class Filter {
   // Takes those measurements of the last innovation() whose indices are given into the state.
   void update(const std::vector<int>& chosen);
 
+  // The carrier's turn about the camera's axes [rad/s] over the last prediction, as whole pictures
+  // show it of what is 1 / `inverse_distance` away: what the carrier moves sideways looks like a
+  // turn, too.
+  void observe_turning(const Eigen::Vector3d& rate, const Eigen::Matrix3d& covariance,
+                       const Eigen::Vector3d& axis, double inverse_distance);
+
   // The camera is somewhere else, and what was known about its place is void; the map stays.
   void replace_camera(const CameraState& state, const CameraCovariance& covariance);
 

@@ -63,7 +63,8 @@ MonoSlam::MonoSlam(const Camera& camera, const MonoSlamOptions& options)
       options_(options),
       random_(options.seed),
       // Rays take up to twice the rows of a point.
-      filter_(camera, options.most_points + options.visible_points, options.pixel_sigma) {}
+      filter_(camera, options.most_points + options.visible_points, options.pixel_sigma),
+      turn_meter_(camera) {}
 
 MonoResult MonoSlam::step(const MonoInput& input) {
   CV_Assert(input.grey.type() == CV_8UC1 && input.grey.cols == camera_.width &&
@@ -71,6 +72,7 @@ MonoResult MonoSlam::step(const MonoInput& input) {
   ++frame_;
   const TrackingState before = state_;
   image_.set(input.grey);
+  turn_meter_.take(input.grey);
   looks_.clear();
   inliers_ = 0;
   if (options_.forget_start_target_at && frame_ == *options_.forget_start_target_at) {
@@ -173,11 +175,11 @@ void MonoSlam::start_as_stated(const MonoInput& input) {
 void MonoSlam::track(const MonoInput& input) {
   const double seconds = std::max(0.0, seconds_from_timestamp(input.time - *last_time_));
   filter_.predict(seconds, options_.motion, input.control);
-  if (commanded_turn(input) > kLeap && (poor_frames_ == 0 || leapt_)) {
-    // A picture taken meanwhile is smeared over the way: like an eye's, it is not looked at.
-    leapt_ = true;
-    return;
-  }
+  const bool leaps = commanded_turn(input) > kLeap && (poor_frames_ == 0 || leapt_);
+  leapt_ = leapt_ || leaps;
+  if (leapt_) feel_turning(input, seconds);
+  // A picture taken meanwhile is smeared over the way: no single point is looked for in it.
+  if (leaps) return;
   measure(options_.search_deviations);
   inliers_ = count_inliers();
   if (turned_away()) return add_points(input, options_.visible_points);
@@ -196,6 +198,42 @@ void MonoSlam::track(const MonoInput& input) {
     weigh_particles();
     manage_map(input);
   }
+}
+
+// A carrier does not go on as it moved for the third of a second that a leap takes: how it turns
+// meanwhile is seen in the pictures as wholes.
+void MonoSlam::feel_turning(const MonoInput& input, double seconds) {
+  constexpr double kUnevenness = 0.5;  // of the distance of what is seen
+  if (!input.control || seconds <= 0) return;
+  const CameraState& camera = filter_.camera_state();
+  const Eigen::Quaterniond commanded = input.control->before_from_after.rotation();
+  const Eigen::Quaterniond turn = so3_exp(seconds * camera.angular_velocity);
+  const auto seen = turn_meter_.measure(commanded * turn);
+  if (!seen) return;
+  const Vector3d rate = so3_log(commanded.conjugate() * seen->before_from_after) / seconds;
+  const double inverse_distance = inverse_distance_ahead();
+  const Vector3d axis = 0.5 * (Vector3d::UnitZ() + commanded.conjugate() * Vector3d::UnitZ());
+  const double commanded_sigma = input.control->rotation_sigma;
+  const double parallax = kUnevenness * inverse_distance * camera.velocity.norm();
+  Matrix3d covariance = seen->covariance / (seconds * seconds);
+  covariance.diagonal().array() +=
+      commanded_sigma * commanded_sigma / (seconds * seconds) + parallax * parallax;
+  filter_.observe_turning(rate, covariance, axis, inverse_distance);
+}
+
+// The median of the mapped points'.
+double MonoSlam::inverse_distance_ahead() const {
+  std::vector<double> inverse;
+  const Vector3d& camera = filter_.camera_state().position;
+  for (const Landmark& landmark : landmarks_) {
+    const Point& point = filter_.point(landmark.id);
+    if (point.kind == PointKind::position)
+      inverse.push_back(1 / std::max((point.position() - camera).norm(), 0.1));
+  }
+  if (inverse.empty()) return 1 / options_.stated_distance;
+  const auto middle = inverse.begin() + static_cast<std::ptrdiff_t>(inverse.size() / 2);
+  std::nth_element(inverse.begin(), middle, inverse.end());
+  return *middle;
 }
 
 // Whether a command has turned the camera to where nothing is mapped: then nothing is missing.

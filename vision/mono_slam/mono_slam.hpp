@@ -18,6 +18,7 @@
 #include "vision/core/time.hpp"
 #include "vision/mono_slam/consensus.hpp"
 #include "vision/mono_slam/filter.hpp"
+#include "vision/mono_slam/image_turn.hpp"
 #include "vision/mono_slam/interest.hpp"
 #include "vision/mono_slam/landmark.hpp"
 #include "vision/mono_slam/relocaliser.hpp"
@@ -150,6 +151,8 @@ class MonoSlam {
   void track(const MonoInput& input);
   int count_inliers() const;
   bool turned_away();
+  void feel_turning(const MonoInput& input, double seconds);
+  double inverse_distance_ahead() const;
   void find_again();
   void forget_target();
   MonoResult result(const MonoInput& input) const;
@@ -180,6 +183,7 @@ class MonoSlam {
   std::mt19937_64 random_;
   Filter filter_;
   SearchImage image_;
+  ImageTurnMeter turn_meter_;
   std::vector<Landmark> landmarks_;  // oldest first, ids ascending
   std::vector<Look> looks_;          // of this frame
   TrackingState state_ = TrackingState::initialising;
