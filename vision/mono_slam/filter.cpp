@@ -312,10 +312,9 @@ void Filter::update(const std::vector<int>& chosen) {
   kernels().subtract_square(p_.data(), weighted_.data(), rank, rows_, stride);
 }
 
-void Filter::observe_turning(const Vector3d& rate, const Matrix3d& covariance, const Vector3d& axis,
-                             double inverse_distance) {
+void Filter::observe_turning(const Turning& turning) {
   const Matrix3d camera_from_world = state_.rotation.conjugate().toRotationMatrix();
-  const Matrix3d parallax = inverse_distance * skew(axis);
+  const Matrix3d parallax = turning.inverse_distance * skew(turning.axis);
   const Vector3d velocity = camera_from_world * state_.velocity;
   Eigen::Matrix<double, 3, kCameraRows> by_camera = Eigen::Matrix<double, 3, kCameraRows>::Zero();
   by_camera.middleCols<3>(3) = parallax * skew(velocity);
@@ -323,8 +322,8 @@ void Filter::observe_turning(const Vector3d& rate, const Matrix3d& covariance, c
   by_camera.middleCols<3>(9) = Matrix3d::Identity();
   auto weighted = weighted_.topLeftCorner(3, rows_);
   weighted.noalias() = by_camera * p_.topLeftCorner(kCameraRows, rows_);
-  const Matrix3d s = weighted.leftCols<kCameraRows>() * by_camera.transpose() + covariance;
-  Vector3d value = rate - state_.angular_velocity - parallax * velocity;
+  const Matrix3d s = weighted.leftCols<kCameraRows>() * by_camera.transpose() + turning.covariance;
+  Vector3d value = turning.rate - state_.angular_velocity - parallax * velocity;
   const Eigen::LLT<Matrix3d> factor(s);
   factor.matrixL().solveInPlace(weighted);
   factor.matrixL().solveInPlace(value);

@@ -116,46 +116,56 @@ std::vector<ImageTurnMeter::Pixel> ImageTurnMeter::pixels_of(const Level& level)
   return pixels;
 }
 
-// The fourth unknown is a change of the light.
+ImageTurnMeter::Overlap ImageTurnMeter::overlap(const Level& level,
+                                                const std::vector<Pixel>& pixels,
+                                                const Quaterniond& turn, double light) {
+  const Eigen::Matrix3f before_from_after = turn.toRotationMatrix().cast<float>();
+  Overlap shared;
+  for (const Pixel& pixel : pixels) {
+    const auto seen = project(level.camera, (before_from_after * pixel.ray).cast<double>());
+    if (!seen) continue;
+    const Eigen::Vector2f there = seen->cast<float>();
+    if (!inside(level.before, there.x(), there.y())) continue;
+    shared.residuals.push_back(at(level.before, there.x(), there.y()) - pixel.value -
+                               static_cast<float>(light));
+    shared.pixels.push_back(&pixel);
+  }
+  return shared;
+}
+
+// The turn and the change of the light that explain the residuals best.
+ImageTurnMeter::Step ImageTurnMeter::step(const Overlap& shared) {
+  const double sigma = spread(shared.residuals);
+  Matrix4d normal = Matrix4d::Zero();
+  Vector4d right = Vector4d::Zero();
+  for (std::size_t i = 0; i < shared.pixels.size(); ++i) {
+    const double residual = static_cast<double>(shared.residuals[i]);
+    const double weight = tukey(residual, sigma);
+    const Vector4d by_turn = shared.pixels[i]->by_turn.cast<double>();
+    normal.noalias() += weight * by_turn * by_turn.transpose();
+    right += weight * residual * by_turn;
+  }
+  const Eigen::LDLT<Matrix4d> solver(normal);
+  const Matrix4d inverse = solver.solve(Matrix4d::Identity());
+  return {solver.solve(right), kAlike * sigma * sigma * inverse.topLeftCorner<3, 3>()};
+}
+
 std::optional<ImageTurn> ImageTurnMeter::refine(const Level& level, const Quaterniond& start) {
   constexpr int kIterations = 12;
   constexpr double kStill = 1e-5;  // rad
   const std::vector<Pixel> pixels = pixels_of(level);
+  const auto least = static_cast<std::size_t>(kLeastShared * static_cast<double>(pixels.size()));
   ImageTurn out{start};
   double light = 0;
   for (int i = 0; i < kIterations; ++i) {
-    const Eigen::Matrix3f turn = out.before_from_after.toRotationMatrix().cast<float>();
-    std::vector<float> residuals;
-    std::vector<const Pixel*> shared;
-    for (const Pixel& pixel : pixels) {
-      const auto seen = project(level.camera, (turn * pixel.ray).cast<double>());
-      if (!seen) continue;
-      const Eigen::Vector2f there = seen->cast<float>();
-      if (!inside(level.before, there.x(), there.y())) continue;
-      residuals.push_back(at(level.before, there.x(), there.y()) - pixel.value -
-                          static_cast<float>(light));
-      shared.push_back(&pixel);
-    }
-    if (static_cast<double>(shared.size()) < kLeastShared * static_cast<double>(pixels.size()))
-      return std::nullopt;
-    const double sigma = spread(residuals);
-    Matrix4d normal = Matrix4d::Zero();
-    Vector4d right = Vector4d::Zero();
-    for (std::size_t k = 0; k < shared.size(); ++k) {
-      const double residual = static_cast<double>(residuals[k]);
-      const double weight = tukey(residual, sigma);
-      const Vector4d by = shared[k]->by_turn.cast<double>();
-      normal.noalias() += weight * by * by.transpose();
-      right += weight * residual * by;
-    }
-    const Eigen::LDLT<Matrix4d> solver(normal);
-    const Vector4d step = solver.solve(right);
-    if (!step.allFinite()) return std::nullopt;
-    const Matrix4d covariance = kAlike * sigma * sigma * solver.solve(Matrix4d::Identity());
-    out.covariance = covariance.topLeftCorner<3, 3>();
-    out.before_from_after = out.before_from_after * so3_exp(-step.head<3>());
-    light += step[3];
-    if (step.head<3>().norm() < kStill) break;
+    const Overlap shared = overlap(level, pixels, out.before_from_after, light);
+    if (shared.pixels.size() < least) return std::nullopt;
+    const Step change = step(shared);
+    if (!change.value.allFinite()) return std::nullopt;
+    out.covariance = change.covariance;
+    out.before_from_after = out.before_from_after * so3_exp(-change.value.head<3>());
+    light += change.value[3];
+    if (change.value.head<3>().norm() < kStill) break;
   }
   if (!(out.covariance.trace() < kWorst * kWorst)) return std::nullopt;
   return out;

@@ -43,7 +43,19 @@ class ImageTurnMeter {
     cv::Mat after;
   };
   struct Pixel;
+  // What both pictures show under some turn, and by how much it differs.
+  struct Overlap {
+    std::vector<const Pixel*> pixels;
+    std::vector<float> residuals;
+  };
+  struct Step {
+    Eigen::Vector4d value;  // a turn, and a change of the light
+    Eigen::Matrix3d covariance;
+  };
   static std::vector<Pixel> pixels_of(const Level& level);
+  static Overlap overlap(const Level& level, const std::vector<Pixel>& pixels,
+                         const Eigen::Quaterniond& turn, double light);
+  static Step step(const Overlap& shared);
   static std::optional<ImageTurn> refine(const Level& level, const Eigen::Quaterniond& start);
 
   std::vector<Level> levels_;  // coarse to fine

@@ -203,43 +203,43 @@ void MonoSlam::track(const MonoInput& input) {
 // A carrier does not go on as it moved for the third of a second that a leap takes: how it turns
 // meanwhile is seen in the pictures as wholes.
 void MonoSlam::feel_turning(const MonoInput& input, double seconds) {
-  constexpr double kUnevenness = 0.5;  // of the distance of what is seen
+  constexpr double kUnevenness = 0.1;  // of the distance of what is seen
   if (!input.control || seconds <= 0) return;
   const CameraState& camera = filter_.camera_state();
   const Eigen::Quaterniond commanded = input.control->before_from_after.rotation();
-  const Eigen::Quaterniond turn = so3_exp(seconds * camera.angular_velocity);
-  const auto seen = turn_meter_.measure(commanded * turn);
+  const auto seen = turn_meter_.measure(commanded * so3_exp(seconds * camera.angular_velocity));
   if (!seen) return;
-  const Vector3d rate = so3_log(commanded.conjugate() * seen->before_from_after) / seconds;
-  const double inverse_distance = inverse_distance_ahead();
-  const Vector3d axis = 0.5 * (Vector3d::UnitZ() + commanded.conjugate() * Vector3d::UnitZ());
-  const double commanded_sigma = input.control->rotation_sigma;
-  const double parallax = kUnevenness * inverse_distance * camera.velocity.norm();
-  Matrix3d covariance = seen->covariance / (seconds * seconds);
-  covariance.diagonal().array() +=
-      commanded_sigma * commanded_sigma / (seconds * seconds) + parallax * parallax;
-  filter_.observe_turning(rate, covariance, axis, inverse_distance);
+  Turning turning;
+  turning.rate = so3_log(commanded.conjugate() * seen->before_from_after) / seconds;
+  turning.axis = 0.5 * (Vector3d::UnitZ() + commanded.conjugate() * Vector3d::UnitZ());
+  turning.inverse_distance = background_inverse_distance();
+  const double commanded_sigma = input.control->rotation_sigma / seconds;
+  const double parallax = kUnevenness * turning.inverse_distance * camera.velocity.norm();
+  turning.covariance = seen->covariance / (seconds * seconds);
+  turning.covariance.diagonal().array() += commanded_sigma * commanded_sigma + parallax * parallax;
+  filter_.observe_turning(turning);
 }
 
-// The median of the mapped points'.
-double MonoSlam::inverse_distance_ahead() const {
+// Of the farthest tenth of the map: points are mostly on things, pictures mostly of what is behind.
+double MonoSlam::background_inverse_distance() const {
   std::vector<double> inverse;
   const Vector3d& camera = filter_.camera_state().position;
   for (const Landmark& landmark : landmarks_) {
     const Point& point = filter_.point(landmark.id);
     if (point.kind == PointKind::position)
-      inverse.push_back(1 / std::max((point.position() - camera).norm(), 0.1));
+      inverse.push_back(1 / std::max((point.position() - camera).norm(), options_.nearest));
   }
   if (inverse.empty()) return 1 / options_.stated_distance;
-  const auto middle = inverse.begin() + static_cast<std::ptrdiff_t>(inverse.size() / 2);
-  std::nth_element(inverse.begin(), middle, inverse.end());
-  return *middle;
+  const auto far = inverse.begin() + static_cast<std::ptrdiff_t>(inverse.size() / 10);
+  std::nth_element(inverse.begin(), far, inverse.end());
+  return *far;
 }
 
-// Whether a command has turned the camera to where nothing is mapped: then nothing is missing.
+// Whether a command has turned the camera to where little is mapped: then nothing is missing, and
+// the few points that are expected, at the old map's edge, may be anywhere.
 bool MonoSlam::turned_away() {
   if (inliers_ >= options_.least_inliers) leapt_ = false;
-  return leapt_ && static_cast<int>(looks_.size()) < options_.least_inliers;
+  return leapt_ && static_cast<int>(looks_.size()) < options_.visible_points / 3;
 }
 
 int MonoSlam::count_inliers() const {

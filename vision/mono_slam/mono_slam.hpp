@@ -152,7 +152,7 @@ class MonoSlam {
   int count_inliers() const;
   bool turned_away();
   void feel_turning(const MonoInput& input, double seconds);
-  double inverse_distance_ahead() const;
+  double background_inverse_distance() const;
   void find_again();
   void forget_target();
   MonoResult result(const MonoInput& input) const;
@@ -173,6 +173,7 @@ class MonoSlam {
   void remove_failed();
   void add_points(const MonoInput& input, int most);
   bool add_point(const MonoInput& input, const Eigen::Vector2d& pixel);
+  Eigen::Vector2d guessed_inverse_distance() const;
   void make_room();
   void erase(std::size_t landmark);
   void keep(PointId id, const cv::Mat& grey, const Eigen::Vector2d& pixel);
