@@ -148,14 +148,17 @@ void read_gaze_target(YamlSection& section, GazeConfig* gaze) {
 }
 
 void read_gaze(YamlSection section, GazeConfig* gaze) {
-  section.read<std::string>("mode", &gaze->mode, "auto, follow, saccade, fixate or rest",
-                            [](const std::string& m) {
-                              return is_one_of(m, {"auto", "follow", "saccade", "fixate", "rest"});
-                            });
+  section.read<std::string>(
+      "mode", &gaze->mode, "auto, follow, saccade, fixate, stabilise or rest",
+      [](const std::string& m) {
+        return is_one_of(m, {"auto", "follow", "saccade", "fixate", "stabilise", "rest"});
+      });
   read_gaze_target(section, gaze);
   const bool follows = gaze->mode == "auto" || gaze->mode == "follow";
   if (follows && (gaze->point_in_world || !is_seen_target(gaze->target)))
     section.complain("'" + section.path() + "mode' must be saccade or fixate for a point");
+  if (gaze->mode == "stabilise" && section.child("target"))
+    section.complain("'" + section.path() + "mode' stabilise holds a direction: leave out target");
   section.refuse_unknown();
 }
 
