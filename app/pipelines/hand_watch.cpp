@@ -13,6 +13,7 @@ using Eigen::Vector2d;
 constexpr double kSeen = 0.2;      // s: what comes and goes is noise
 constexpr double kFade = 0.4;      // s, in which 63 % of a way are forgotten
 constexpr double kFar = 0.35;      // sizes: ragged blobs move by less
+constexpr double kKept = 0.5;      // s out of sight, as long as its number
 constexpr double kRemembered = 5;  // s for which what has moved is a hand
 
 double seconds_between(Timestamp from, Timestamp to) { return seconds_from_timestamp(to - from); }
@@ -24,29 +25,26 @@ std::optional<Vector2d> HandWatch::update(const HandsState& hands, const Frame& 
   cv::Mat grey = frame.color;
   if (grey.channels() == 3) cv::cvtColor(frame.color, grey, cv::COLOR_BGR2GRAY);
   turn_meter_.take(grey);
-  if (!hands.hands.empty() || hands.unproven.empty()) {
-    tracks_.clear();
-    return std::nullopt;
-  }
+  if (!hands.hands.empty()) tracks_.clear();
+  std::erase_if(tracks_, [&](const auto& entry) {
+    return seconds_between(entry.second.time, frame.time) > kKept;
+  });
+  if (!hands.hands.empty() || hands.unproven.empty()) return std::nullopt;
   const auto turn = turn_meter_.measure(Eigen::Quaterniond::Identity());
   std::optional<Timestamp> latest;
   std::optional<Vector2d> moving;
-  std::map<int, Track> still_there;
   for (const gesture::Hand& hand : hands.unproven) {
-    const auto known = tracks_.find(hand.id);
-    Track track = known != tracks_.end() ? known->second : Track{.since = frame.time};
+    const auto [entry, is_new] = tracks_.try_emplace(hand.id, Track{.since = frame.time});
+    Track& track = entry->second;
     // While nobody can tell how the picture has moved, neither can it be told of a hand.
-    if (turn && known != tracks_.end()) follow(track, hand, frame.time, turn->before_from_after);
+    if (turn && !is_new) follow(track, hand, frame.time, turn->before_from_after);
     track.time = frame.time;
     track.center = hand.seen.center;
-    if (track.moved && seconds_between(*track.moved, frame.time) < kRemembered &&
-        (!latest || *track.moved > *latest)) {
-      latest = track.moved;
-      moving = hand.seen.center;
-    }
-    still_there.emplace(hand.id, track);
+    if (!track.moved || seconds_between(*track.moved, frame.time) > kRemembered) continue;
+    if (latest && *track.moved <= *latest) continue;
+    latest = track.moved;
+    moving = hand.seen.center;
   }
-  tracks_ = std::move(still_there);
   return moving;
 }
 

@@ -1,5 +1,6 @@
 // The gaze closed through a serial line, in real time: the board at its other end turns a mount,
 // the mount's camera sees a target where the mount has turned it to, and what is seen is commanded.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -8,6 +9,7 @@
 #include <numbers>
 #include <thread>
 #include <unistd.h>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -33,6 +35,8 @@ class FirmataGaze : public testing::Test {
   FirmataGaze() {
     folder_ = std::filesystem::temp_directory_path() / ("gaze-" + std::to_string(getpid()));
     std::filesystem::create_directory(folder_);
+    model_.lower = {-1.4, -0.7, -0.6};
+    model_.upper = {1.4, 0.7, 0.6};
     servos_.port = (folder_ / "board").string();
     board_ = std::make_unique<test::FirmataPeer>(servos_.port);
     auto gimbal = open_firmata_gimbal(servos_, "main", model_);
@@ -97,7 +101,7 @@ class FirmataGaze : public testing::Test {
   }
 
   FirmataServos servos_;
-  GimbalModel model_{.lower = {-1.4, -0.7, -0.6}, .upper = {1.4, 0.7, 0.6}};
+  GimbalModel model_;
   Camera camera_ = pinhole(320, 240, 190, 190, 159.5, 119.5);
   std::filesystem::path folder_;
   std::unique_ptr<test::FirmataPeer> board_;

@@ -224,7 +224,10 @@ TEST(GazeController, RestsStraightAheadAndSaysWhatIsOutOfReach) {
   GazeController controller(loop.model, loop.camera);
   EXPECT_EQ(controller.step({}).angles, Vector3d::Zero());
   controller.saccade_to_world({0, 0, -1});
-  controller.step({.gimbal = GimbalState{}, .pose = CameraPoseSeen{}});
+  GazeInput input;
+  input.gimbal = GimbalState{};
+  input.pose = CameraPoseSeen{};
+  controller.step(input);
   EXPECT_FALSE(controller.reachable());
   controller.rest();
   EXPECT_EQ(controller.step({}).angles, Vector3d::Zero());
