@@ -136,7 +136,8 @@ ImageTurnMeter::Overlap ImageTurnMeter::overlap(const Level& level,
 // The turn and the change of the light that explain the residuals best.
 ImageTurnMeter::Step ImageTurnMeter::step(const Overlap& shared) {
   const double sigma = spread(shared.residuals);
-  Matrix4d normal = Matrix4d::Zero();
+  // A weak prior, so that what the pictures say nothing about is uncertain.
+  Matrix4d normal = sigma * sigma * Matrix4d::Identity();
   Vector4d right = Vector4d::Zero();
   for (std::size_t i = 0; i < shared.pixels.size(); ++i) {
     const double residual = static_cast<double>(shared.residuals[i]);
