@@ -47,7 +47,7 @@ class HandsStageTest : public testing::Test {
     frame->time = frame->index * kFrame;
     frame->color = cv::Mat(480, 640, type, color);
     for (int i = 0; i < 60; ++i)  // so that it can be told whether the camera has turned
-      frame->color(cv::Rect(37 * i % 600, 53 * i % 450, 30, 20)) *= 0.5;
+      frame->color(cv::Rect(37 * i % 600, 53 * i % 450, 30, 20)).setTo(0.5 * color);
     frame->sensor = sensor_;
     auto tracked = std::make_shared<TrackedFrame>();
     tracked->frame = frame;
