@@ -284,7 +284,8 @@ TEST(EndToEndMono, TheGazeIsHeldAgainstTheWearersTurning) {
   const TemporaryFolder folder;
   const MonoRun held = track(folder, worn("gaze-room", 50), "gaze: {mode: stabilise}\n");
   EXPECT_THAT(modes(gaze_events(held)), ElementsAre("fixate"));
-  const MonoRun free = track(folder, worn("gaze-room", 50), "gaze: {mode: rest}\n");
+  const MonoRun free =
+      track(folder, worn("gaze-room", 50), std::string(kMono) + "gaze: {mode: rest}\n");
   EXPECT_GT(turned(free.trajectory), 2);
   EXPECT_LT(turned(held.trajectory), 0.7);
 }
