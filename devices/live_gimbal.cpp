@@ -139,6 +139,7 @@ class LiveGimbal final : public Gimbal {
     Timestamp time = states_.empty() ? now : states_.back().time + kSampled;
     time = std::max(time, now - kRemembered);
     for (; time <= now; time += kSampled) states_.push_back(motion_.advance(time));
+    if (states_.back().time < now) states_.push_back(motion_.advance(now));
     while (states_.front().time + kRemembered < now) states_.pop_front();
   }
 

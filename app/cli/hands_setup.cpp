@@ -107,9 +107,9 @@ Result<HandDetectors> make_detectors(const GestureConfig& config,
 }  // namespace
 
 std::optional<FaultEvent> cannot_follow(const GazeConfig& gaze, bool gimbal) {
-  const bool asked = gaze.mode == "follow" || (gaze.mode == "auto" && gaze.target != "hand");
-  if (!asked || gimbal) return std::nullopt;
-  return FaultEvent{"gaze", "the camera is on no gimbal: gaze follows nothing",
+  const bool automatic = gaze.mode == "auto" && gaze.target == "hand";
+  if (automatic || gaze.mode == "rest" || gimbal) return std::nullopt;
+  return FaultEvent{"gaze", "the camera is on no gimbal: it cannot turn",
                     "give a rig with a gimbal, or a simulated source with gimbal=yes, or remove "
                     "gaze from the configuration"};
 }

@@ -11,7 +11,7 @@
 
 namespace armsreach::app {
 
-// Nothing where gaze can follow, or nobody has asked it to; `gimbal`: whether one carries the
+// Nothing where the gaze can turn, or nobody has asked it to; `gimbal`: whether one carries the
 // sensor and hands are looked for.
 std::optional<FaultEvent> cannot_follow(const GazeConfig& gaze, bool gimbal);
 

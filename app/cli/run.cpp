@@ -133,8 +133,9 @@ Parts parts_for(const RunOptions& options, const Config& config, const SavedWorl
   const bool in_depth = sensor.depth_camera || world.map || !options.map.empty();
   parts.workspace = options.experience.empty() ? dense && in_depth : wants(options, "workspace");
   parts.wearable = options.experience.empty() ? !parts.workspace : wants(options, "wearable");
-  const bool needs_pose = world.sparse_map || config.gaze.mode == "saccade" ||
-                          config.gaze.mode == "fixate" || !sensor.depth_camera;
+  const std::string& gaze = config.gaze.mode;
+  const bool looks_at_world = gaze == "saccade" || gaze == "fixate" || gaze == "stabilise";
+  const bool needs_pose = world.sparse_map || looks_at_world || !sensor.depth_camera;
   parts.mono = !parts.workspace && (method == "mono" || (method == "auto" && needs_pose)) &&
                sensor.color_camera;
   return parts;

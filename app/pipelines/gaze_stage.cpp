@@ -61,8 +61,10 @@ GazeStage::GazeStage(const GazeConfig& config, const GimbalModel& model, const C
                      const Eigen::Vector3d& up_in_world, double delay)
     : config_(config),
       delay_(timestamp_from_seconds(delay)),
-      controller_(model, camera, settings_for(up_in_world)) {
+      controller_(model, camera, settings_for(up_in_world)),
+      watch_(camera) {
   if (config.mode == "follow" || config.mode == "auto") controller_.follow(config.target);
+  if (config.mode == "stabilise") controller_.stabilise();
 }
 
 GazeOutput GazeStage::process(const GazeStageInput& input) {
@@ -75,8 +77,8 @@ GazeOutput GazeStage::process(const GazeStageInput& input) {
   if (pose_known(tracked)) news.pose = CameraPoseSeen{taken, tracked.world_from_camera};
   if (config_.mode == "saccade" || config_.mode == "fixate") {
     aim(input);
-  } else if (input.seen.hands) {
-    if (const auto pixel = target(*input.seen.hands)) news.target = TargetSeen{taken, *pixel, {}};
+  } else if (controller_.mode() == GazeMode::follow) {
+    if (const auto pixel = followed(input.seen)) news.target = TargetSeen{taken, *pixel, {}};
   }
   GazeOutput out;
   out.command = std::make_shared<GimbalCommand>(controller_.step(news));
@@ -115,6 +117,15 @@ std::optional<Eigen::Vector3d> GazeStage::point_in_world(const GazeStageInput& i
   if (const auto measured = point_in_world_at(tracked, *pixel)) return measured;
   const auto ray = ray_through(tracked, *pixel);
   return ray && tracked.world ? tracked.world->pick(*ray, kSeenReach) : std::nullopt;
+}
+
+// A hand that has made no gesture yet is followed once it has moved.
+std::optional<Eigen::Vector2d> GazeStage::followed(const SeenFrame& seen) {
+  if (!seen.hands) return std::nullopt;
+  const bool any_hand = config_.target == "hand" || config_.target == "hands";
+  const auto moving = any_hand ? watch_.update(*seen.hands, *seen.tracked->frame) : std::nullopt;
+  const auto proven = target(*seen.hands);
+  return proven ? proven : moving;
 }
 
 std::optional<Eigen::Vector2d> GazeStage::target(const HandsState& hands) const {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "app/pipelines/hand_watch.hpp"
 #include "app/pipelines/hands_stage.hpp"
 #include "app/runtime/stage.hpp"
 #include "app/session/config.hpp"
@@ -41,6 +42,7 @@ class GazeStage final : public Stage<GazeStageInput, GazeOutput> {
 
  private:
   std::optional<Eigen::Vector2d> target(const HandsState& hands) const;
+  std::optional<Eigen::Vector2d> followed(const SeenFrame& seen);
   std::optional<Eigen::Vector3d> point_in_world(const GazeStageInput& input) const;
   void aim(const GazeStageInput& input);
 
@@ -48,6 +50,7 @@ class GazeStage final : public Stage<GazeStageInput, GazeOutput> {
   std::optional<Eigen::Vector3d> aimed_at_;  // in the world
   Timestamp delay_;
   GazeController controller_;
+  HandWatch watch_;
 };
 
 }  // namespace armsreach::app

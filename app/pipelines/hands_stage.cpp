@@ -71,8 +71,8 @@ HandsOutput HandsStage::process(const TrackedFramePtr& tracked) {
   Sighting sighting;
   if (!colorless) sighting = detectors_.look(frame);
   gesture::Gestures gestures = inference_.update(sighting.hands, frame.time);
-  std::erase_if(gestures.hands, [](const gesture::Hand& hand) { return !hand.established; });
-  state->hands = std::move(gestures.hands);
+  for (gesture::Hand& hand : gestures.hands)
+    (hand.established ? state->hands : state->unproven).push_back(std::move(hand));
   state->things = std::move(sighting.things);
   tell_gestures(*state, frame.time, &out.news.events);
   find_held(*tracked, state.get(), &out.news.events);

@@ -36,6 +36,8 @@ struct HandsSetup {
 
 struct HandsState {
   std::vector<gesture::Hand> hands;  // the established ones
+  // Skin that has made no gesture: a hand that does something else, or a wall.
+  std::vector<gesture::Hand> unproven;
   gesture::ColorBlobs things;
   std::optional<std::size_t> held;         // of the things: the one in a hand
   std::optional<std::size_t> highlighted;  // the one that is pointed at

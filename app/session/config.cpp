@@ -145,14 +145,17 @@ void read_gaze_target(YamlMap& section, GazeConfig* gaze) {
 }
 
 void read_gaze(YamlMap section, GazeConfig* gaze) {
-  section.read<std::string>("mode", &gaze->mode, "auto, follow, saccade, fixate or rest",
-                            [](const std::string& m) {
-                              return is_one_of(m, {"auto", "follow", "saccade", "fixate", "rest"});
-                            });
+  section.read<std::string>(
+      "mode", &gaze->mode, "auto, follow, saccade, fixate, stabilise or rest",
+      [](const std::string& m) {
+        return is_one_of(m, {"auto", "follow", "saccade", "fixate", "stabilise", "rest"});
+      });
   read_gaze_target(section, gaze);
   const bool follows = gaze->mode == "auto" || gaze->mode == "follow";
   if (follows && (gaze->point_in_world || !is_seen_target(gaze->target)))
     throw section.complaint("mode", "must be saccade or fixate for a point");
+  if (gaze->mode == "stabilise" && section.child("target"))
+    throw section.complaint("mode", "stabilise holds a direction: leave out target");
   section.refuse_others();
 }
 

@@ -68,7 +68,9 @@ struct GestureConfig {
 };
 
 struct GazeConfig {
-  std::string mode = "auto";  // follow where there is a gimbal; or follow, saccade, fixate, rest
+  // auto: follow where there is a gimbal; or follow, saccade, fixate, stabilise (hold the first
+  // direction against the wearer's turning), rest.
+  std::string mode = "auto";
   // hand, hands (their midpoint), grasp (what it points at), colour:NAME; to leap to and to hold
   // also point:ID of the sparse map and object:ID inserted.
   std::string target = "hand";

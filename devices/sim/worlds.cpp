@@ -14,7 +14,7 @@ namespace armsreach::sim {
 const std::vector<std::string>& world_names() {
   static const std::vector<std::string> names{
       "bench",    "near",        "kitchen-table",   "assembly", "packaging", "haptic-table",
-      "ir-glove", "ir-bracelet", "ir-bracelet-far", "gaze",     "gaze-sway"};
+      "ir-glove", "ir-bracelet", "ir-bracelet-far", "gaze",     "gaze-sway", "gaze-room"};
   return names;
 }
 

@@ -1,11 +1,14 @@
 // A plain camera that knows where it is, through the command line: from a start target, from one
 // frame of depth, covered, and entered again another day.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -193,18 +196,98 @@ TEST(EndToEndMono, OneFrameOfDepthGivesTheScaleAndLaterOnesNothing) {
   EXPECT_EQ(with.trajectory, blind.trajectory);
 }
 
+// A worn camera on its gimbal. At a hundredth of its speed the wearer stands still.
+std::string worn(const std::string& world, int frames, const std::string& speed = "1") {
+  return "sim:" + world +
+         ",mount=shoulder,gimbal=yes,lens=80,width=320,height=240,seed=1,speed=" + speed +
+         ",frames=" + std::to_string(frames);
+}
+
+std::vector<json> gaze_events(const MonoRun& run) {
+  std::vector<json> out = run.events;
+  std::erase_if(out, [](const json& event) { return event["type"] != "gaze"; });
+  return out;
+}
+
+std::vector<std::string> modes(const std::vector<json>& gaze) {
+  std::vector<std::string> out;
+  for (const json& event : gaze) out.push_back(event["mode"]);
+  return out;
+}
+
 TEST(EndToEndMono, TheGazeLeapsToAPlaceInTheWorldByWhatTheCameraSees) {
   const TemporaryFolder folder;
   const MonoRun run =
-      track(folder,
-            "sim:gaze-sway,mount=shoulder,gimbal=yes,lens=80,width=320,height=240,seed=1,frames=60",
-            "gaze: {mode: saccade, target: [1, 0, 1.5]}\n");
-  std::vector<std::string> modes;
-  for (const json& event : run.events) {
-    if (event["type"] == "gaze") modes.push_back(event["mode"]);
-  }
-  EXPECT_THAT(modes, ElementsAre("saccade", "fixate"));
+      track(folder, worn("gaze-sway", 60), "gaze: {mode: saccade, target: [1, 0, 1.5]}\n");
+  EXPECT_THAT(modes(gaze_events(run)), ElementsAre("saccade", "fixate"));
   EXPECT_THAT(run.states(), ElementsAre("tracking"));
+}
+
+TEST(EndToEndMono, TheGazeLeapsToAnInsertedObject) {
+  const TemporaryFolder folder;
+  const MonoRun run = track(folder, worn("gaze-room", 40, "0.01"),
+                            "gaze: {mode: saccade, target: 'object:1'}\n"
+                            "actions: [{frame: 12, click: [250, 118], insert: teapot}]\n");
+  std::vector<json> inserted = run.events;
+  std::erase_if(inserted, [](const json& event) { return event["type"] != "insert"; });
+  ASSERT_EQ(inserted.size(), 1U);
+  const std::vector<double> place = inserted[0]["world_from_object"]["translation"];
+  const std::vector<json> gaze = gaze_events(run);
+  ASSERT_THAT(modes(gaze), ElementsAre("saccade", "fixate"));
+  EXPECT_EQ(gaze[0]["target"], "object:1");
+  EXPECT_GT(gaze[0]["t"], inserted[0]["t"]);
+  // The world is the first camera's: what is to its right is to the right of the gimbal's zero. A
+  // degree and a half for what the wearer sways all the same.
+  const double pan = std::atan2(place[0], place[2]);
+  EXPECT_GT(pan, 0.1);
+  EXPECT_NEAR(gaze[1]["pan"], pan, 0.026);
+}
+
+TEST(EndToEndMono, TheGazeHoldsAPointOfTheMap) {
+  for (const char* mode : {"saccade", "fixate"}) {
+    const TemporaryFolder folder;
+    const MonoRun run = track(folder, worn("gaze-room", 25, "0.01"),
+                              std::string("gaze: {mode: ") + mode + ", target: 'point:4'}\n");
+    const std::vector<json> gaze = gaze_events(run);
+    ASSERT_FALSE(gaze.empty());
+    EXPECT_EQ(gaze[0]["mode"], mode);
+    EXPECT_EQ(gaze[0]["target"], "point:4");
+    EXPECT_EQ(gaze.back()["mode"], "fixate");
+    const double way = std::hypot(gaze[0]["pan"].get<double>(), gaze[0]["tilt"].get<double>());
+    EXPECT_GT(way, 0.05) << "no point is in the very middle";
+    EXPECT_LT(way, 0.9) << "it is in the first picture";
+  }
+}
+
+TEST(EndToEndMono, APointThatIsNotMappedIsWaitedFor) {
+  const TemporaryFolder folder;
+  const MonoRun run =
+      track(folder, worn("gaze-room", 8), "gaze: {mode: saccade, target: 'point:4711'}\n");
+  EXPECT_THAT(gaze_events(run), ElementsAre());
+}
+
+// Degrees by which the camera has turned from the 20th to the last frame.
+double turned(const std::string& trajectory) {
+  std::istringstream lines(trajectory);
+  std::vector<Eigen::Quaterniond> rotations;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream fields(line);
+    double t, x, y, z, qx, qy, qz, qw;
+    if (fields >> t >> x >> y >> z >> qx >> qy >> qz >> qw) rotations.emplace_back(qw, qx, qy, qz);
+  }
+  EXPECT_GT(rotations.size(), 20U);
+  if (rotations.size() <= 20) return 0;
+  return rotations[20].angularDistance(rotations.back()) * 180 / std::numbers::pi;
+}
+
+TEST(EndToEndMono, TheGazeIsHeldAgainstTheWearersTurning) {
+  const TemporaryFolder folder;
+  const MonoRun held = track(folder, worn("gaze-room", 50), "gaze: {mode: stabilise}\n");
+  EXPECT_THAT(modes(gaze_events(held)), ElementsAre("fixate"));
+  const MonoRun free =
+      track(folder, worn("gaze-room", 50), std::string(kMono) + "gaze: {mode: rest}\n");
+  EXPECT_GT(turned(free.trajectory), 2);
+  EXPECT_LT(turned(held.trajectory), 0.7);
 }
 
 TEST(EndToEndMono, WhatCannotBeIsRefused) {

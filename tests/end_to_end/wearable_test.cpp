@@ -130,10 +130,11 @@ TEST(EndToEndWearable, ThreadedTurnsAndRepeatsAreBitIdentical) {
   EXPECT_GT(difference(resting.picture, first.picture), 1);
 }
 
-TEST(EndToEndWearable, FollowingWithoutAGimbalIsAFault) {
+TEST(EndToEndWearable, LookingWithoutAGimbalIsAFault) {
   const TemporaryFolder folder;
-  for (const auto& [config, faults] :
-       {std::pair("gaze: {mode: follow}", 1U), {"gaze: {mode: auto}", 0U}}) {
+  for (const auto& [config, faults] : {std::pair("gaze: {mode: follow}", 1U),
+                                       {"gaze: {mode: stabilise}", 1U},
+                                       {"gaze: {mode: auto}", 0U}}) {
     write_text(folder / "config.yaml", config);
     std::vector<std::string> arguments = run_of(folder, "sim:bench,frames=2", "wearable");
     arguments.insert(arguments.end(), {"--config", folder / "config.yaml"});

@@ -10,7 +10,7 @@ using Eigen::Vector3d;
 
 constexpr Timestamp kStatesRemembered = 2'000'000'000;
 constexpr Timestamp kPosesRemembered = 500'000'000;
-constexpr double kStabilisedDistance = 3;  // m, of what is in the middle of the image
+constexpr double kFarAway = 1000;  // m, where a point is a direction
 
 template <class Items>
 void forget_before(Items& items, Timestamp time) {
@@ -37,36 +37,25 @@ void GazeController::follow(const std::string& name) {
 }
 
 void GazeController::saccade_to_world(const Vector3d& point, const std::string& name) {
-  aim_at(GazeMode::saccade, Frame::world, point, name);
-}
-
-void GazeController::saccade_to_mount(const Vector3d& point, const std::string& name) {
-  aim_at(GazeMode::saccade, Frame::mount, point, name);
+  aim_at(GazeMode::saccade, point, name);
 }
 
 void GazeController::fixate_in_world(const Vector3d& point, const std::string& name) {
-  aim_at(GazeMode::fixate, Frame::world, point, name);
+  aim_at(GazeMode::fixate, point, name);
 }
 
-void GazeController::stabilise() {
-  const Vector3d angles = states_.empty() ? solution_.angles : states_.back().angles;
-  const Vector3d ahead =
-      mount_from_camera(model_, angles) * (kStabilisedDistance * Vector3d::UnitZ());
-  if (mounts_.empty()) return aim_at(GazeMode::fixate, Frame::mount, ahead, "");
-  aim_at(GazeMode::fixate, Frame::world, mounts_.back().world_from_mount * ahead, "");
-}
+void GazeController::stabilise() { aim_at(GazeMode::fixate, std::nullopt, ""); }
 
 void GazeController::rest() { begin(GazeMode::rest, ""); }
 
-void GazeController::aim_at(GazeMode mode, Frame frame, const Vector3d& point,
+void GazeController::aim_at(GazeMode mode, const std::optional<Vector3d>& point,
                             const std::string& name) {
   begin(mode, name);
-  frame_ = frame;
   goal_ = point;
   predictor_ = PointPredictor(settings_.fixated);
-  if (frame == Frame::mount) return;
+  if (!goal_) return;
   for (const MountSeen& seen : mounts_)
-    predictor_.observe(seen.time, seen.world_from_mount.inverse() * goal_);
+    predictor_.observe(seen.time, seen.world_from_mount.inverse() * *goal_);
 }
 
 GimbalCommand GazeController::step(const GazeInput& input) {
@@ -80,7 +69,7 @@ GimbalCommand GazeController::step(const GazeInput& input) {
   const auto obeyed = input.now + timestamp_from_seconds(model_.lag + settings_.lead);
   if (mode_ == GazeMode::rest) {
     solution_ = {clamped(model_, Vector3d::Zero())};
-  } else if (const auto point = point_in_mount(obeyed)) {
+  } else if (const auto point = predictor_.at(obeyed)) {
     solution_ = look_at(model_, *point, up_in_mount(), solution_.angles);
   }
   announce(input.now);
@@ -105,14 +94,9 @@ void GazeController::see_pose(const CameraPoseSeen& seen) {
       seen.world_from_camera * mount_from_camera(model_, state->angles).inverse();
   mounts_.push_back({seen.time, world_from_mount});
   forget_before(mounts_, seen.time - kPosesRemembered);
-  const bool holds = mode_ == GazeMode::saccade || mode_ == GazeMode::fixate;
-  if (holds && frame_ == Frame::world)
-    predictor_.observe(seen.time, world_from_mount.inverse() * goal_);
-}
-
-std::optional<Vector3d> GazeController::point_in_mount(Timestamp time) const {
-  if (mode_ != GazeMode::follow && frame_ == Frame::mount) return goal_;
-  return predictor_.at(time);
+  if (mode_ != GazeMode::saccade && mode_ != GazeMode::fixate) return;
+  if (!goal_) goal_ = seen.world_from_camera * (kFarAway * Vector3d::UnitZ());
+  predictor_.observe(seen.time, world_from_mount.inverse() * *goal_);
 }
 
 Vector3d GazeController::up_in_mount() const {
@@ -124,7 +108,7 @@ Vector3d GazeController::up_in_mount() const {
 void GazeController::end_saccade() {
   if (states_.empty()) return;
   const GimbalState& state = states_.back();
-  const auto point = point_in_mount(state.time);
+  const auto point = predictor_.at(state.time);
   if (!point) return;
   const Vector3d in_camera = mount_from_camera(model_, state.angles).inverse() * *point;
   const double off = std::atan2(in_camera.head<2>().norm(), in_camera.z());

@@ -1,5 +1,5 @@
 // Where the camera on its gimbal shall look: it follows what is seen in the image, leaps to a
-// point, holds a point while the wearer moves, or rests.
+// point, holds a point or a direction while the wearer moves, or rests.
 //
 // Measurements come late and with their own times. Each is brought into the mount's frame with the
 // gimbal's angles of that time; there the gimbal's own motion is gone from it, so that no delay
@@ -63,13 +63,12 @@ class GazeController {
 
   // What to do from now on; each is an event. `name` says what is looked at.
   void follow(const std::string& name = "");
-  // To a point, also outside of the image, and then holds it. In the world it needs poses and waits
-  // for one.
+  // What follows needs poses and waits for one.
+  // To a point, also outside of the image, and then holds it.
   void saccade_to_world(const Eigen::Vector3d& point, const std::string& name = "");
-  void saccade_to_mount(const Eigen::Vector3d& point, const std::string& name = "");
   // The same without a leap being announced.
   void fixate_in_world(const Eigen::Vector3d& point, const std::string& name = "");
-  // Holds what is in the middle of the image now. Without a pose it stays as it is.
+  // Holds the direction in which it looks at the next pose, against the turning of the mount.
   void stabilise();
   void rest();
 
@@ -81,16 +80,14 @@ class GazeController {
   Events take_events();
 
  private:
-  enum class Frame { mount, world };
   struct MountSeen {
     Timestamp time;
     Pose world_from_mount;
   };
   void begin(GazeMode mode, const std::string& name);
-  void aim_at(GazeMode mode, Frame frame, const Eigen::Vector3d& point, const std::string& name);
+  void aim_at(GazeMode mode, const std::optional<Eigen::Vector3d>& point, const std::string& name);
   void see_target(const TargetSeen& seen);
   void see_pose(const CameraPoseSeen& seen);
-  std::optional<Eigen::Vector3d> point_in_mount(Timestamp time) const;
   Eigen::Vector3d up_in_mount() const;
   void end_saccade();
   void announce(Timestamp now);
@@ -103,10 +100,10 @@ class GazeController {
   GazeMode mode_ = GazeMode::rest;
   bool announced_ = true;
   std::string name_;
-  Frame frame_ = Frame::mount;
-  Eigen::Vector3d goal_{0, 0, 1};  // in `frame_`; unless following
-  PointPredictor predictor_;       // of a target that moves in the mount's frame
-  std::deque<MountSeen> mounts_;   // of the last half second
+  // In the world, of a saccade or a fixation; nothing while a direction waits for a pose.
+  std::optional<Eigen::Vector3d> goal_;
+  PointPredictor predictor_;      // of a target that moves in the mount's frame
+  std::deque<MountSeen> mounts_;  // of the last half second
   GimbalSolution solution_;
   Events events_;
 };

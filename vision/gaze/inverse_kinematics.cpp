@@ -11,7 +11,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kFarAway = 1e7;  // m, where a direction is a point
 // Of upright against on target: exact solutions satisfy both, at a limit the target is worth 1e4
 // times as much.
 constexpr double kTorsionWeight = 0.01;
@@ -105,11 +104,6 @@ GimbalSolution look_at(const GimbalModel& model, const Vector3d& point_in_mount,
   const Vector3d left = aim.residuals(best);
   const double error = std::acos(std::clamp(std::cos(left[0]) * std::cos(left[1]), -1.0, 1.0));
   return {best, error, left[2]};
-}
-
-GimbalSolution look_along(const GimbalModel& model, const Vector3d& direction_in_mount,
-                          const Vector3d& up_in_mount, const Vector3d& start) {
-  return look_at(model, kFarAway * direction_in_mount.normalized(), up_in_mount, start);
 }
 
 }  // namespace armsreach

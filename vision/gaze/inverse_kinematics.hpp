@@ -1,4 +1,4 @@
-// The angles at which a gimbal's camera looks at a point or along a direction, upright.
+// The angles at which a gimbal's camera looks at a point, upright.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,7 +20,5 @@ struct GimbalSolution {
 // at `start`, so that the solution stays on the same branch while a target moves.
 GimbalSolution look_at(const GimbalModel& model, const Eigen::Vector3d& point_in_mount,
                        const Eigen::Vector3d& up_in_mount, const Eigen::Vector3d& start);
-GimbalSolution look_along(const GimbalModel& model, const Eigen::Vector3d& direction_in_mount,
-                          const Eigen::Vector3d& up_in_mount, const Eigen::Vector3d& start);
 
 }  // namespace armsreach

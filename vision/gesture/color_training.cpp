@@ -148,7 +148,8 @@ ColorModel balanced(const ColorModel& model, const cv::Vec3f& level) {
 
 Result<ColorModel> taught(const ColorModel& model, const std::string& name,
                           const ColorExamples& examples, const std::string& where) {
-  if (name.empty()) return Error{"has no name", where, "say what the thing is called"};
+  if (name.find_first_not_of(" \t") == std::string::npos)
+    return Error{"has no name", where, "say what the thing is called"};
   if (auto status = check_enough(examples, where); !status) return status.error();
   ColorModel more = model;
   more.with_luma = true;

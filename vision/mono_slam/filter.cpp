@@ -312,6 +312,26 @@ void Filter::update(const std::vector<int>& chosen) {
   kernels().subtract_square(p_.data(), weighted_.data(), rank, rows_, stride);
 }
 
+void Filter::observe_turning(const Turning& turning) {
+  const Matrix3d camera_from_world = state_.rotation.conjugate().toRotationMatrix();
+  const Matrix3d parallax = turning.inverse_distance * skew(turning.axis);
+  const Vector3d velocity = camera_from_world * state_.velocity;
+  Eigen::Matrix<double, 3, kCameraRows> by_camera = Eigen::Matrix<double, 3, kCameraRows>::Zero();
+  by_camera.middleCols<3>(3) = parallax * skew(velocity);
+  by_camera.middleCols<3>(6) = parallax * camera_from_world;
+  by_camera.middleCols<3>(9) = Matrix3d::Identity();
+  auto weighted = weighted_.topLeftCorner(3, rows_);
+  weighted.noalias() = by_camera * p_.topLeftCorner(kCameraRows, rows_);
+  const Matrix3d s = weighted.leftCols<kCameraRows>() * by_camera.transpose() + turning.covariance;
+  Vector3d value = turning.rate - state_.angular_velocity - parallax * velocity;
+  const Eigen::LLT<Matrix3d> factor(s);
+  factor.matrixL().solveInPlace(weighted);
+  factor.matrixL().solveInPlace(value);
+  correct_state(weighted.transpose() * value);
+  kernels().subtract_square(p_.data(), weighted_.data(), 3, rows_,
+                            static_cast<int>(p_.outerStride()));
+}
+
 void Filter::correct_state(const VectorXd& correction) {
   state_ = corrected(state_, correction.head<kCameraRows>());
   for (Slot& slot : slots_) {

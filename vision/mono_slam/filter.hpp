@@ -32,6 +32,15 @@ struct Measurement {
   Eigen::Vector2d innovation() const { return pixel - prediction.sighting.pixel; }
 };
 
+// How whole pictures turn over the last prediction, besides what was commanded. What a carrier
+// moves sideways looks like a turn, too.
+struct Turning {
+  Eigen::Vector3d rate = Eigen::Vector3d::Zero();  // about the camera's axes, rad/s
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  // where it looked on average, in the camera
+  double inverse_distance = 0;                      // of what is seen, 1/m
+};
+
 // Several measurements predicted together.
 struct JointInnovation {
   std::vector<PointId> ids;
@@ -74,6 +83,8 @@ class Filter {
   const JointInnovation& innovation(const std::vector<Measurement>& measurements);
   // Takes those measurements of the last innovation() whose indices are given into the state.
   void update(const std::vector<int>& chosen);
+
+  void observe_turning(const Turning& turning);
 
   // The camera is somewhere else, and what was known about its place is void; the map stays.
   void replace_camera(const CameraState& state, const CameraCovariance& covariance);

@@ -103,16 +103,28 @@ void MonoSlam::add_points(const MonoInput& input, int most) {
   }
 }
 
+// And one deviation of it.
+Vector2d MonoSlam::guessed_inverse_distance() const {
+  if (leapt_) {
+    // Nothing here ties the map's scale to what was mapped before, but that it is the same room.
+    constexpr double kSpread = 0.3;
+    const double around = background_inverse_distance();
+    return {around, kSpread * around};
+  }
+  // Two deviations reach from the farthest to the nearest.
+  const double low = 1 / options_.farthest;
+  const double high = 1 / options_.nearest;
+  return {0.5 * (low + high), 0.25 * (high - low)};
+}
+
 bool MonoSlam::add_point(const MonoInput& input, const Vector2d& pixel) {
   make_room();
   std::optional<PointId> id;
   if (options_.new_points == NewPoints::particles) {
     id = filter_.add_ray(pixel);
   } else {
-    // Two deviations reach from the farthest to the nearest.
-    const double low = 1 / options_.farthest;
-    const double high = 1 / options_.nearest;
-    id = filter_.add_inverse_depth(pixel, 0.5 * (low + high), 0.25 * (high - low));
+    const Eigen::Vector2d guess = guessed_inverse_distance();
+    id = filter_.add_inverse_depth(pixel, guess[0], guess[1]);
   }
   if (!id) return false;
   keep(*id, input.grey, pixel);

@@ -63,7 +63,8 @@ MonoSlam::MonoSlam(const Camera& camera, const MonoSlamOptions& options)
       options_(options),
       random_(options.seed),
       // Rays take up to twice the rows of a point.
-      filter_(camera, options.most_points + options.visible_points, options.pixel_sigma) {}
+      filter_(camera, options.most_points + options.visible_points, options.pixel_sigma),
+      turn_meter_(camera) {}
 
 MonoResult MonoSlam::step(const MonoInput& input) {
   CV_Assert(input.grey.type() == CV_8UC1 && input.grey.cols == camera_.width &&
@@ -71,6 +72,7 @@ MonoResult MonoSlam::step(const MonoInput& input) {
   ++frame_;
   const TrackingState before = state_;
   image_.set(input.grey);
+  turn_meter_.take(input.grey);
   looks_.clear();
   inliers_ = 0;
   if (options_.forget_start_target_at && frame_ == *options_.forget_start_target_at) {
@@ -173,11 +175,11 @@ void MonoSlam::start_as_stated(const MonoInput& input) {
 void MonoSlam::track(const MonoInput& input) {
   const double seconds = std::max(0.0, seconds_from_timestamp(input.time - *last_time_));
   filter_.predict(seconds, options_.motion, input.control);
-  if (commanded_turn(input) > kLeap && (poor_frames_ == 0 || leapt_)) {
-    // A picture taken meanwhile is smeared over the way: like an eye's, it is not looked at.
-    leapt_ = true;
-    return;
-  }
+  const bool leaps = commanded_turn(input) > kLeap && (poor_frames_ == 0 || leapt_);
+  leapt_ = leapt_ || leaps;
+  if (leapt_) feel_turning(input, seconds);
+  // A picture taken meanwhile is smeared over the way: no single point is looked for in it.
+  if (leaps) return;
   measure(options_.search_deviations);
   inliers_ = count_inliers();
   if (turned_away()) return add_points(input, options_.visible_points);
@@ -198,10 +200,46 @@ void MonoSlam::track(const MonoInput& input) {
   }
 }
 
-// Whether a command has turned the camera to where nothing is mapped: then nothing is missing.
+// A carrier does not go on as it moved for the third of a second that a leap takes: how it turns
+// meanwhile is seen in the pictures as wholes.
+void MonoSlam::feel_turning(const MonoInput& input, double seconds) {
+  constexpr double kUnevenness = 0.1;  // of the distance of what is seen
+  if (!input.control || seconds <= 0) return;
+  const CameraState& camera = filter_.camera_state();
+  const Eigen::Quaterniond commanded = input.control->before_from_after.rotation();
+  const auto seen = turn_meter_.measure(commanded * so3_exp(seconds * camera.angular_velocity));
+  if (!seen) return;
+  Turning turning;
+  turning.rate = so3_log(commanded.conjugate() * seen->before_from_after) / seconds;
+  turning.axis = 0.5 * (Vector3d::UnitZ() + commanded.conjugate() * Vector3d::UnitZ());
+  turning.inverse_distance = background_inverse_distance();
+  const double commanded_sigma = input.control->rotation_sigma / seconds;
+  const double parallax = kUnevenness * turning.inverse_distance * camera.velocity.norm();
+  turning.covariance = seen->covariance / (seconds * seconds);
+  turning.covariance.diagonal().array() += commanded_sigma * commanded_sigma + parallax * parallax;
+  filter_.observe_turning(turning);
+}
+
+// Of the farthest tenth of the map: points are mostly on things, pictures mostly of what is behind.
+double MonoSlam::background_inverse_distance() const {
+  std::vector<double> inverse;
+  const Vector3d& camera = filter_.camera_state().position;
+  for (const Landmark& landmark : landmarks_) {
+    const Point& point = filter_.point(landmark.id);
+    if (point.kind == PointKind::position)
+      inverse.push_back(1 / std::max((point.position() - camera).norm(), options_.nearest));
+  }
+  if (inverse.empty()) return 1 / options_.stated_distance;
+  const auto far = inverse.begin() + static_cast<std::ptrdiff_t>(inverse.size() / 10);
+  std::nth_element(inverse.begin(), far, inverse.end());
+  return *far;
+}
+
+// Whether a command has turned the camera to where little is mapped: then nothing is missing, and
+// the few points that are expected, at the old map's edge, may be anywhere.
 bool MonoSlam::turned_away() {
   if (inliers_ >= options_.least_inliers) leapt_ = false;
-  return leapt_ && static_cast<int>(looks_.size()) < options_.least_inliers;
+  return leapt_ && static_cast<int>(looks_.size()) < options_.visible_points / 3;
 }
 
 int MonoSlam::count_inliers() const {

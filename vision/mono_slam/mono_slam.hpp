@@ -18,6 +18,7 @@
 #include "vision/core/time.hpp"
 #include "vision/mono_slam/consensus.hpp"
 #include "vision/mono_slam/filter.hpp"
+#include "vision/mono_slam/image_turn.hpp"
 #include "vision/mono_slam/interest.hpp"
 #include "vision/mono_slam/landmark.hpp"
 #include "vision/mono_slam/relocaliser.hpp"
@@ -150,6 +151,8 @@ class MonoSlam {
   void track(const MonoInput& input);
   int count_inliers() const;
   bool turned_away();
+  void feel_turning(const MonoInput& input, double seconds);
+  double background_inverse_distance() const;
   void find_again();
   void forget_target();
   MonoResult result(const MonoInput& input) const;
@@ -170,6 +173,7 @@ class MonoSlam {
   void remove_failed();
   void add_points(const MonoInput& input, int most);
   bool add_point(const MonoInput& input, const Eigen::Vector2d& pixel);
+  Eigen::Vector2d guessed_inverse_distance() const;
   void make_room();
   void erase(std::size_t landmark);
   void keep(PointId id, const cv::Mat& grey, const Eigen::Vector2d& pixel);
@@ -180,6 +184,7 @@ class MonoSlam {
   std::mt19937_64 random_;
   Filter filter_;
   SearchImage image_;
+  ImageTurnMeter turn_meter_;
   std::vector<Landmark> landmarks_;  // oldest first, ids ascending
   std::vector<Look> looks_;          // of this frame
   TrackingState state_ = TrackingState::initialising;

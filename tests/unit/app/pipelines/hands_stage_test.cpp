@@ -46,6 +46,8 @@ class HandsStageTest : public testing::Test {
     frame->index = index_++;
     frame->time = frame->index * kFrame;
     frame->color = cv::Mat(480, 640, type, color);
+    for (int i = 0; i < 60; ++i)  // so that it can be told whether the camera has turned
+      frame->color(cv::Rect(37 * i % 600, 53 * i % 450, 30, 20)).setTo(0.5 * color);
     frame->sensor = sensor_;
     auto tracked = std::make_shared<TrackedFrame>();
     tracked->frame = frame;
@@ -184,6 +186,24 @@ TEST_F(HandsStageTest, GazeTurnsToWhatItIsToldToFollow) {
   EXPECT_LT(commanded("colour:mug")[0], -0.3);       // farther left,
   EXPECT_NEAR(commanded("colour:mug")[1], 0, 0.02);  // and level
   EXPECT_NEAR(commanded("colour:hat").norm(), 0, 1e-9);
+}
+
+TEST_F(HandsStageTest, GazeFollowsAHandThatHasMadeNoGestureOnceItMoves) {
+  GazeStage gaze({"follow", "hand", {}}, GimbalModel(), *sensor_->color_camera, {0, -1, 0}, 0);
+  const auto look = [&](double right) {
+    sees_.hands = {showing("")};
+    sees_.hands[0].center.x() += right;
+    sees_.hands[0].area = 60 * 60;
+    const HandsOutput out = next();
+    const Timestamp time = out.seen.tracked->frame->time;
+    return gaze.process({out.seen, GimbalState{time, {0, 0, 0}, {0, 0, 0}}}).command->angles;
+  };
+  for (int i = 0; i < 30; ++i) EXPECT_EQ(look(3 * (i % 2)).norm(), 0);  // a wall's ragged edge
+  Eigen::Vector3d angles;
+  for (int i = 0; i < 15; ++i) angles = look(10 * i);
+  EXPECT_GT(angles[0], 0.2);  // after it, to the right
+  for (int i = 0; i < 60; ++i) angles = look(140);
+  EXPECT_NEAR(angles[0], std::atan2(440 - 319.5, 500), 0.02);  // and it is still that hand
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/vision/mono_slam/cameras.hpp"
+#include "tests/unit/vision/mono_slam/numeric.hpp"
 
 namespace armsreach::mono_slam {
 namespace {
@@ -73,6 +74,34 @@ MatrixXd dense_jacobian(const Filter& filter, const std::vector<Measurement>& me
     line.middleCols(row, prediction.sighting.by_point.cols()) = prediction.sighting.by_point;
   }
   return h;
+}
+
+TEST(Filter, TheTurningOfWholePicturesIsTakenAsTheTextbookTakesIt) {
+  Filter filter = some_filter();
+  Turning turning;
+  turning.rate = {0.7, 1.0, -0.9};
+  turning.covariance = 1e-3 * Eigen::Matrix3d::Identity();
+  turning.axis = Vector3d(0.1, 0, 0.98);
+  turning.inverse_distance = 0.5;
+  const CameraState before = filter.camera_state();
+  const MatrixXd p = filter.covariance();
+  const auto seen = [&](const VectorXd& error) -> VectorXd {
+    const CameraState state = corrected(before, error);
+    return state.angular_velocity +
+           turning.inverse_distance *
+               turning.axis.cross(state.rotation.conjugate() * state.velocity);
+  };
+  MatrixXd h = MatrixXd::Zero(3, filter.rows());
+  h.leftCols<kCameraRows>() = test::numeric_jacobian(seen, kCameraRows);
+  const MatrixXd s = h * p * h.transpose() + turning.covariance;
+  const MatrixXd gain = p * h.transpose() * s.inverse();
+  const VectorXd correction = gain * (turning.rate - seen(VectorXd::Zero(kCameraRows)));
+  filter.observe_turning(turning);
+  const CameraError left =
+      difference(filter.camera_state(), corrected(before, correction.head<kCameraRows>()));
+  EXPECT_LT(left.norm(), 1e-7);  // of a numeric derivative
+  EXPECT_LT((filter.covariance() - (p - gain * h * p)).cwiseAbs().maxCoeff(), 1e-8);
+  expect_symmetric_positive(filter);
 }
 
 TEST(Filter, UpdateIsTheTextbooks) {

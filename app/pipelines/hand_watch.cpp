@@ -1,0 +1,64 @@
+#include "app/pipelines/hand_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <opencv2/imgproc.hpp>
+
+namespace armsreach::app {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kSeen = 0.2;      // s: what comes and goes is noise
+constexpr double kFade = 0.4;      // s, in which 63 % of a way are forgotten
+constexpr double kFar = 0.35;      // sizes: ragged blobs move by less
+constexpr double kKept = 0.5;      // s out of sight, as long as its number
+constexpr double kRemembered = 5;  // s for which what has moved is a hand
+
+double seconds_between(Timestamp from, Timestamp to) { return seconds_from_timestamp(to - from); }
+
+}  // namespace
+
+std::optional<Vector2d> HandWatch::update(const HandsState& hands, const Frame& frame) {
+  if (frame.color.size() != cv::Size(camera_.width, camera_.height)) return std::nullopt;
+  cv::Mat grey = frame.color;
+  if (grey.channels() == 3) cv::cvtColor(frame.color, grey, cv::COLOR_BGR2GRAY);
+  turn_meter_.take(grey);
+  if (!hands.hands.empty()) tracks_.clear();
+  std::erase_if(tracks_, [&](const auto& entry) {
+    return seconds_between(entry.second.time, frame.time) > kKept;
+  });
+  if (!hands.hands.empty() || hands.unproven.empty()) return std::nullopt;
+  const auto turn = turn_meter_.measure(Eigen::Quaterniond::Identity());
+  std::optional<Timestamp> latest;
+  std::optional<Vector2d> moving;
+  for (const gesture::Hand& hand : hands.unproven) {
+    const auto [entry, is_new] = tracks_.try_emplace(hand.id, Track{.since = frame.time});
+    Track& track = entry->second;
+    // While nobody can tell how the picture has moved, neither can it be told of a hand.
+    if (turn && !is_new) follow(track, hand, frame.time, turn->before_from_after);
+    track.time = frame.time;
+    track.center = hand.seen.center;
+    if (!track.moved || seconds_between(*track.moved, frame.time) > kRemembered) continue;
+    if (latest && *track.moved <= *latest) continue;
+    latest = track.moved;
+    moving = hand.seen.center;
+  }
+  return moving;
+}
+
+// A step counts where the hand has made more of it than the picture.
+void HandWatch::follow(Track& track, const gesture::Hand& hand, Timestamp time,
+                       const Eigen::Quaterniond& before_from_now) const {
+  const auto carried =
+      project(camera_, before_from_now.conjugate() * unproject(camera_, track.center));
+  if (!carried) return;
+  const Vector2d own = hand.seen.center - *carried;
+  track.way *= std::exp(-seconds_between(track.time, time) / kFade);
+  if (own.norm() > (*carried - track.center).norm())
+    track.way += own / std::sqrt(std::max(hand.seen.area, 1.0));
+  if (track.way.norm() > kFar && seconds_between(track.since, time) > kSeen) track.moved = time;
+}
+
+}  // namespace armsreach::app
