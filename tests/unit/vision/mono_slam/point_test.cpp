@@ -68,7 +68,7 @@ TEST(PointSighting, JacobiansAreTheDerivatives) {
 
 // A camera that turns while its lines are read sees what is at the top as it was before.
 TEST(PointSighting, ARollingShutterShearsWhatATurningCameraSees) {
-  const Camera camera = test::wide_angle();
+  const Camera camera = pinhole(320, 240, 264, 264, 159.5, 119.5);
   CameraState state;
   state.angular_velocity = {0, 0.5, 0};
   const auto shift = [&](double y) {
@@ -77,9 +77,10 @@ TEST(PointSighting, ARollingShutterShearsWhatATurningCameraSees) {
     return sighting(camera, with_rolling_shutter(state), point)->pixel.x() -
            sighting(camera, state, point)->pixel.x();
   };
-  // 195 px a radian, 0.5 rad/s, half of 0.03 s: turning right, things move left.
-  EXPECT_NEAR(shift(camera.height - 1), -1.46, 0.15);
-  EXPECT_NEAR(shift(0), 1.46, 0.15);
+  // 264 px a radian, 0.5 rad/s, half of 0.03 s: turning right, things move left. Less one line of
+  // 240 between the lines' middles and their edges.
+  EXPECT_NEAR(shift(camera.height - 1), -1.98, 0.02);
+  EXPECT_NEAR(shift(0), 1.98, 0.02);
   EXPECT_NEAR(shift(0.5 * (camera.height - 1)), 0, 1e-3);
 }
 
@@ -159,8 +160,9 @@ void expect_ray(const Camera& camera, const CameraState& state, double tolerance
 TEST(NewRay, GoesThroughItsPixelAndHasTheDerivativesOfThat) {
   for (const Camera& camera : test::cameras()) {
     expect_ray(camera, moving_state(), 1e-6);
-    // Its line is guessed to about a pixel, in which the camera moves by some hundredths.
-    expect_ray(camera, with_rolling_shutter(moving_state()), 0.05);
+    // At this fast turn, 1.5 rad/s, its line is guessed wrong by some pixels, during which what is
+    // seen moves by up to 0.2.
+    expect_ray(camera, with_rolling_shutter(moving_state()), 0.25);
   }
 }
 
