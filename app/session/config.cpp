@@ -154,7 +154,7 @@ void read_gaze(YamlMap section, GazeConfig* gaze) {
   const bool follows = gaze->mode == "auto" || gaze->mode == "follow";
   if (follows && (gaze->point_in_world || !is_seen_target(gaze->target)))
     throw section.complaint("mode", "must be saccade or fixate for a point");
-  if (gaze->mode == "stabilise" && section.child("target"))
+  if (gaze->mode == "stabilise" && section.find("target"))
     throw section.complaint("mode", "stabilise holds a direction: leave out target");
   section.refuse_others();
 }

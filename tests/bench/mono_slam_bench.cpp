@@ -58,7 +58,7 @@ MatrixXd dense_jacobian(const Filter& filter, const std::vector<Measurement>& al
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto at = 2 * static_cast<Eigen::Index>(i);
     const auto point = std::find(ids.begin(), ids.end(), all[i].prediction.id) - ids.begin();
-    h.block<2, kPoseRows>(at, 0) = all[i].prediction.sighting.by_pose;
+    h.block<2, kCameraRows>(at, 0) = all[i].prediction.sighting.by_camera;
     h.block<2, 3>(at, kCameraRows + 3 * point) = all[i].prediction.sighting.by_point;
   }
   return h;

@@ -26,13 +26,15 @@ CameraState corrected(const CameraState& state, const CameraError& error) {
   out.rotation = (state.rotation * so3_exp(error.segment<3>(3))).normalized();
   out.velocity += error.segment<3>(6);
   out.angular_velocity += error.segment<3>(9);
+  out.readout += error[kReadoutRow];
   return out;
 }
 
 CameraError difference(const CameraState& to, const CameraState& from) {
   CameraError out;
   out << to.position - from.position, so3_log(from.rotation.conjugate() * to.rotation),
-      to.velocity - from.velocity, to.angular_velocity - from.angular_velocity;
+      to.velocity - from.velocity, to.angular_velocity - from.angular_velocity,
+      to.readout - from.readout;
   return out;
 }
 
@@ -48,6 +50,7 @@ CameraState moved(const CameraState& state, double seconds,
   out.rotation = (turned * command.rotation()).normalized();
   out.velocity = state.velocity;
   out.angular_velocity = after_from_before * state.angular_velocity;
+  out.readout = state.readout;
   if (by_state) {
     const Matrix3d turn_by_rotation = so3_exp(-turn).toRotationMatrix();
     const Matrix3d turn_by_rate = right_jacobian(turn) * seconds;

@@ -1,8 +1,12 @@
 // The moving camera of the filter: its state and how that changes from frame to frame.
 //
-// The state has 13 numbers, the covariance 12 rows: an error of the rotation is a small turn about
+// The state has 14 numbers, the covariance 13 rows: an error of the rotation is a small turn about
 // the camera's own axes, world_from_camera = estimate * Exp(turn), so that a quaternion's length is
 // no direction of the covariance and nothing has to be normalised.
+//
+// A rolling shutter reads a picture's lines one after the other: what a turning camera sees is
+// sheared by several pixels. How long that takes is part of the state, since no calibration file
+// says it; the pose is that of the middle line.
 #pragma once
 
 #include <optional>
@@ -19,13 +23,15 @@ struct CameraState {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  // world_from_camera
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();            // in the world, m/s
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();    // about the camera's axes, rad/s
+  double readout = 0;  // s from the first line to the last; 0 of a global shutter
 
   Pose world_from_camera() const { return Pose(rotation, position); }
 };
 
-// Rows of the covariance: position, turn, velocity, angular velocity.
-inline constexpr int kCameraRows = 12;
-inline constexpr int kPoseRows = 6;  // the first of them, which are all that a pixel depends on
+// Rows of the covariance: position, turn, velocity, angular velocity, readout.
+inline constexpr int kCameraRows = 13;
+inline constexpr int kPoseRows = 6;  // the first of them
+inline constexpr int kReadoutRow = 12;
 using CameraCovariance = Eigen::Matrix<double, kCameraRows, kCameraRows>;
 using CameraError = Eigen::Matrix<double, kCameraRows, 1>;
 

@@ -94,15 +94,15 @@ PointId Filter::append(const Point& point) {
   return slots_.back().id;
 }
 
-// The new rows follow the pose's; `own` is what they have for themselves.
-PointId Filter::append_from_pose(const Point& point,
-                                 const Eigen::Matrix<double, -1, kPoseRows>& by_pose,
-                                 const MatrixXd& own) {
+// The new rows follow the camera's; `own` is what they have for themselves.
+PointId Filter::append_from_camera(const Point& point,
+                                   const Eigen::Matrix<double, -1, kCameraRows>& by_camera,
+                                   const MatrixXd& own) {
   const int first = rows_;
   const int count = rows_of(point.kind);
-  const MatrixXd with_pose = by_pose * p_.topLeftCorner<kPoseRows, kPoseRows>();
-  p_.block(first, 0, count, first).noalias() = by_pose * p_.topLeftCorner(kPoseRows, first);
-  const MatrixXd block = with_pose * by_pose.transpose() + own;
+  const MatrixXd with_camera = by_camera * p_.topLeftCorner<kCameraRows, kCameraRows>();
+  p_.block(first, 0, count, first).noalias() = by_camera * p_.topLeftCorner(kCameraRows, first);
+  const MatrixXd block = with_camera * by_camera.transpose() + own;
   p_.block(first, first, count, count) = 0.5 * (block + block.transpose());
   const PointId id = append(point);
   mirror_rows(first, count);
@@ -113,8 +113,8 @@ std::optional<PointId> Filter::add_known(const Vector3d& point_in_world, double 
   if (!has_room(3)) return std::nullopt;
   Point point;
   point.values = point_in_world;
-  return append_from_pose(point, Eigen::Matrix<double, 3, kPoseRows>::Zero(),
-                          sigma * sigma * Matrix3d::Identity());
+  return append_from_camera(point, Eigen::Matrix<double, 3, kCameraRows>::Zero(),
+                            sigma * sigma * Matrix3d::Identity());
 }
 
 std::optional<PointId> Filter::add_ray(const Vector2d& pixel) {
@@ -123,7 +123,7 @@ std::optional<PointId> Filter::add_ray(const Vector2d& pixel) {
   MatrixXd own = pixel_sigma_ * pixel_sigma_ * ray.by_pixel * ray.by_pixel.transpose();
   // The origin follows the camera exactly; a tenth of a millimetre keeps the covariance regular.
   own.topLeftCorner<3, 3>().diagonal().array() += 1e-8;
-  return append_from_pose(ray.point, ray.by_pose, own);
+  return append_from_camera(ray.point, ray.by_camera, own);
 }
 
 std::optional<PointId> Filter::add_point(const Vector2d& pixel, double distance, double sigma) {
@@ -135,9 +135,9 @@ std::optional<PointId> Filter::add_point(const Vector2d& pixel, double distance,
   const Vector3d along = ray.point.axes.col(0);
   Point point;
   point.values = ray.point.at(distance);
-  return append_from_pose(point, by_ray * ray.by_pose,
-                          pixel_sigma_ * pixel_sigma_ * by_pixel * by_pixel.transpose() +
-                              sigma * sigma * along * along.transpose());
+  return append_from_camera(point, by_ray * ray.by_camera,
+                            pixel_sigma_ * pixel_sigma_ * by_pixel * by_pixel.transpose() +
+                                sigma * sigma * along * along.transpose());
 }
 
 std::optional<PointId> Filter::add_inverse_depth(const Vector2d& pixel, double inverse_distance,
@@ -148,13 +148,13 @@ std::optional<PointId> Filter::add_inverse_depth(const Vector2d& pixel, double i
   point.kind = PointKind::inverse_depth;
   point.values.conservativeResize(6);
   point.values[5] = inverse_distance;
-  Eigen::Matrix<double, 6, kPoseRows> by_pose = Eigen::Matrix<double, 6, kPoseRows>::Zero();
-  by_pose.topRows<5>() = ray.by_pose;
+  Eigen::Matrix<double, 6, kCameraRows> by_camera = Eigen::Matrix<double, 6, kCameraRows>::Zero();
+  by_camera.topRows<5>() = ray.by_camera;
   MatrixXd own = MatrixXd::Zero(6, 6);
   own.topLeftCorner<5, 5>() = pixel_sigma_ * pixel_sigma_ * ray.by_pixel * ray.by_pixel.transpose();
   own.topLeftCorner<3, 3>().diagonal().array() += 1e-8;
   own(5, 5) = sigma * sigma;
-  return append_from_pose(point, by_pose, own);
+  return append_from_camera(point, by_camera, own);
 }
 
 std::vector<PointId> Filter::add_map(const std::vector<Vector3d>& points_in_world,
@@ -239,11 +239,12 @@ std::optional<Prediction> Filter::predicted(const Slot& slot,
   out.sighting = *sighting;
   const auto count = sighting->by_point.cols();
   const auto own = p_.block(slot.row, slot.row, count, count);
-  const auto with_pose = p_.block(0, slot.row, kPoseRows, count);
-  const Eigen::Matrix2d cross = sighting->by_pose * with_pose * sighting->by_point.transpose();
+  const auto with_camera = p_.block(0, slot.row, kCameraRows, count);
+  const auto& by_camera = sighting->by_camera;
+  const Eigen::Matrix2d cross = by_camera * with_camera * sighting->by_point.transpose();
   out.covariance =
-      sighting->by_pose * p_.topLeftCorner<kPoseRows, kPoseRows>() * sighting->by_pose.transpose() +
-      cross + cross.transpose() + sighting->by_point * own * sighting->by_point.transpose();
+      by_camera * p_.topLeftCorner<kCameraRows, kCameraRows>() * by_camera.transpose() + cross +
+      cross.transpose() + sighting->by_point * own * sighting->by_point.transpose();
   out.covariance(1, 0) = out.covariance(0, 1);
   out.covariance.diagonal().array() += pixel_sigma_ * pixel_sigma_;
   return out;
@@ -271,7 +272,7 @@ const JointInnovation& Filter::innovation(const std::vector<Measurement>& measur
     const Sighting& s = m.prediction.sighting;
     const int row = slot(m.prediction.id).row;
     auto line = stacked_.block(2 * i, 0, 2, rows_);
-    line.noalias() = s.by_pose * p_.topLeftCorner(kPoseRows, rows_);
+    line.noalias() = s.by_camera * p_.topLeftCorner(kCameraRows, rows_);
     line.noalias() += s.by_point * p_.block(row, 0, s.by_point.cols(), rows_);
     joint_.ids.push_back(m.prediction.id);
     joint_.value.segment<2>(2 * i) = m.innovation();
@@ -282,10 +283,13 @@ const JointInnovation& Filter::innovation(const std::vector<Measurement>& measur
     const Sighting& s = m.prediction.sighting;
     const int row = slot(m.prediction.id).row;
     auto column = joint_.covariance.middleCols(2 * i, 2);
-    column.noalias() = stacked.leftCols<kPoseRows>() * s.by_pose.transpose();
+    column.noalias() = stacked.leftCols<kCameraRows>() * s.by_camera.transpose();
     column.noalias() += stacked.middleCols(row, s.by_point.cols()) * s.by_point.transpose();
   }
-  joint_.covariance.diagonal().array() += pixel_sigma_ * pixel_sigma_;
+  for (int i = 0; i < count; ++i) {
+    const double sigma = measurements[static_cast<std::size_t>(i)].noise * pixel_sigma_;
+    joint_.covariance.diagonal().segment<2>(2 * i).array() += sigma * sigma;
+  }
   return joint_;
 }
 

@@ -29,6 +29,7 @@ struct Prediction {
 struct Measurement {
   Prediction prediction;
   Eigen::Vector2d pixel;
+  double noise = 1;  // its deviation, in units of the filter's
   Eigen::Vector2d innovation() const { return pixel - prediction.sighting.pixel; }
 };
 
@@ -120,8 +121,9 @@ class Filter {
   Slot& slot(PointId id);
   auto rows_of_p(int first, int count) { return p_.block(first, 0, count, rows_); }
   PointId append(const Point& point);
-  PointId append_from_pose(const Point& point, const Eigen::Matrix<double, -1, kPoseRows>& by_pose,
-                           const Eigen::MatrixXd& own);
+  PointId append_from_camera(const Point& point,
+                             const Eigen::Matrix<double, -1, kCameraRows>& by_camera,
+                             const Eigen::MatrixXd& own);
   void reduce_to_position(Slot& slot, const Eigen::Matrix<double, 3, -1>& by_old,
                           const Eigen::Vector3d& position, const Eigen::Matrix3d& added);
   void erase_rows(int first, int count);
@@ -138,7 +140,7 @@ class Filter {
   PointId next_id_ = 1;
   int rows_ = kCameraRows;
   RowMajor p_;
-  RowMajor scratch_;   // twelve rows of the covariance
+  RowMajor scratch_;   // kCameraRows rows of the covariance
   RowMajor stacked_;   // H P of the last innovation
   RowMajor weighted_;  // L^-1 H P of the chosen ones
   JointInnovation joint_;

@@ -103,18 +103,48 @@ void MonoSlam::add_points(const MonoInput& input, int most) {
   }
 }
 
-// And one deviation of it.
-Vector2d MonoSlam::guessed_inverse_distance() const {
+// What is around a new pixel is about as far away, but many new points that all believe a fixed
+// distance would pull the map's scale towards it; so the range of distances counts as one of the
+// points around, and far fewer points say nothing.
+MonoSlam::InverseDepthPrior MonoSlam::inverse_depth_prior(const Vector2d& pixel) const {
+  constexpr double kNear = 30;     // px
+  constexpr double kKnown = 0.2;   // of an inverse depth, its deviation
+  constexpr double kSpread = 0.5;  // of the mean: steps are anywhere
+  constexpr double kLeast = 0.2;   // 1/m
+  constexpr int kLeastNeighbours = 4;
   if (leapt_) {
     // Nothing here ties the map's scale to what was mapped before, but that it is the same room.
-    constexpr double kSpread = 0.3;
+    constexpr double kSameRoom = 0.3;
     const double around = background_inverse_distance();
-    return {around, kSpread * around};
+    return {around, kSameRoom * around};
   }
   // Two deviations reach from the farthest to the nearest.
   const double low = 1 / options_.farthest;
   const double high = 1 / options_.nearest;
-  return {0.5 * (low + high), 0.25 * (high - low)};
+  const InverseDepthPrior anywhere{0.5 * (low + high), 0.25 * (high - low)};
+  double weights = 1;
+  double sum = anywhere.mean;
+  double squares = anywhere.mean * anywhere.mean + anywhere.sigma * anywhere.sigma;
+  int neighbours = 0;
+  for (const Look& look : looks_) {
+    if (look.outcome != Outcome::measured) continue;
+    const PointId id = look.prediction.id;
+    const Point& point = filter_.point(id);
+    if (point.kind == PointKind::inverse_depth &&
+        filter_.inverse_depth_sigma(id) > kKnown * point.values[5]) {
+      continue;
+    }
+    const double inverse = 1 / (point.position() - filter_.camera_state().position).norm();
+    const double weight = 1 / (1 + (*look.measured - pixel).squaredNorm() / (kNear * kNear));
+    weights += weight;
+    sum += weight * inverse;
+    squares += weight * inverse * inverse;
+    ++neighbours;
+  }
+  if (neighbours < kLeastNeighbours) return anywhere;
+  const double mean = sum / weights;
+  const double variance = squares / weights - mean * mean;
+  return {mean, std::sqrt(variance + kSpread * kSpread * mean * mean + kLeast * kLeast)};
 }
 
 bool MonoSlam::add_point(const MonoInput& input, const Vector2d& pixel) {
@@ -123,8 +153,8 @@ bool MonoSlam::add_point(const MonoInput& input, const Vector2d& pixel) {
   if (options_.new_points == NewPoints::particles) {
     id = filter_.add_ray(pixel);
   } else {
-    const Eigen::Vector2d guess = guessed_inverse_distance();
-    id = filter_.add_inverse_depth(pixel, guess[0], guess[1]);
+    const InverseDepthPrior prior = inverse_depth_prior(pixel);
+    id = filter_.add_inverse_depth(pixel, prior.mean, prior.sigma);
   }
   if (!id) return false;
   keep(*id, input.grey, pixel);

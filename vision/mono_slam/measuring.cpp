@@ -10,6 +10,17 @@ namespace armsreach::mono_slam {
 
 using Eigen::Vector2d;
 
+namespace {
+
+// The deviation of a match in units of the usual one. 1 - ZNCC is the share of what is seen that
+// the template does not explain; what displaces the peak grows with its root.
+double noise_of(double score) {
+  constexpr double kUsual = 0.05;
+  return std::clamp(std::sqrt((1 - score) / kUsual), 0.7, 3.0);
+}
+
+}  // namespace
+
 std::optional<Prediction> MonoSlam::expected(const Landmark& landmark) const {
   const Point& point = filter_.point(landmark.id);
   if (point.kind == PointKind::ray) return std::nullopt;
@@ -35,11 +46,13 @@ std::vector<MonoSlam::Look> MonoSlam::expected_looks() const {
   return out;
 }
 
-std::optional<Vector2d> MonoSlam::look_for(Landmark* landmark, const Prediction& prediction,
-                                           double deviations) const {
+std::optional<Match> MonoSlam::look_for(Landmark* landmark, const Prediction& prediction,
+                                        double deviations) const {
   const Point& point = filter_.point(landmark->id);
   Template pattern = landmark->patch.original();
-  if (point.kind == PointKind::position) {
+  constexpr double kKnown = 0.3;  // of an inverse depth, its deviation
+  if (point.kind == PointKind::position ||
+      filter_.inverse_depth_sigma(landmark->id) < kKnown * point.values[5]) {
     pattern = warped(landmark->patch, warp(landmark->patch, point.position(), camera_,
                                            filter_.camera_state().world_from_camera()));
   }
@@ -49,7 +62,7 @@ std::optional<Vector2d> MonoSlam::look_for(Landmark* landmark, const Prediction&
                             options_.least_score);
   if (!match) return std::nullopt;
   landmark->latest = pattern;
-  return match->pixel;
+  return match;
 }
 
 // Takes what agrees into the filter if that is enough; the number that agrees.
@@ -83,9 +96,10 @@ void MonoSlam::measure(double deviations) {
   std::vector<Look*> found;
   std::vector<Measurement> measurements;
   const auto seek = [&](Look* look, const Prediction& prediction) {
-    look->measured = look_for(&landmarks_[look->landmark], prediction, deviations);
-    if (!look->measured) return;
-    measurements.push_back({prediction, *look->measured});
+    const auto match = look_for(&landmarks_[look->landmark], prediction, deviations);
+    if (!match) return;
+    look->measured = match->pixel;
+    measurements.push_back({prediction, match->pixel, noise_of(match->score)});
     look->innovation = measurements.back().innovation();
     found.push_back(look);
   };

@@ -13,12 +13,15 @@ using Eigen::Vector3d;
 // Of a camera that is held: what its velocities may be when nothing is known of them.
 constexpr double kUnknownVelocity = 0.3;         // m/s
 constexpr double kUnknownAngularVelocity = 0.5;  // rad/s
+// From a global shutter to one that takes all of a frame's time.
+constexpr double kUnknownReadout = 0.02;  // s
 
 CameraCovariance camera_covariance(const Matrix6d& pose) {
   CameraCovariance out = CameraCovariance::Zero();
   out.topLeftCorner<kPoseRows, kPoseRows>() = pose;
   out.diagonal().segment<3>(6).setConstant(kUnknownVelocity * kUnknownVelocity);
   out.diagonal().segment<3>(9).setConstant(kUnknownAngularVelocity * kUnknownAngularVelocity);
+  out(kReadoutRow, kReadoutRow) = kUnknownReadout * kUnknownReadout;
   return out;
 }
 
@@ -266,7 +269,10 @@ void MonoSlam::find_again() {
   Matrix6d pose = Matrix6d::Zero();
   pose.diagonal().head<3>().setConstant(kUnknownPosition * kUnknownPosition);
   pose.diagonal().tail<3>().setConstant(kUnknownTurn * kUnknownTurn);
-  filter_.replace_camera(camera, camera_covariance(pose));
+  CameraCovariance covariance = camera_covariance(pose);
+  camera.readout = filter_.camera_state().readout;  // the shutter is the same
+  covariance(kReadoutRow, kReadoutRow) = filter_.camera_covariance()(kReadoutRow, kReadoutRow);
+  filter_.replace_camera(camera, covariance);
   for (const Relocalisation::Confirmed& seen : found->confirmed) {
     const auto prediction = filter_.predict(seen.id);
     if (!prediction || static_cast<int>(looks_.size()) >= Filter::kMostMeasurements) continue;

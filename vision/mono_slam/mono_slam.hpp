@@ -22,6 +22,7 @@
 #include "vision/mono_slam/interest.hpp"
 #include "vision/mono_slam/landmark.hpp"
 #include "vision/mono_slam/relocaliser.hpp"
+#include "vision/mono_slam/search.hpp"
 #include "vision/mono_slam/sparse_map.hpp"
 #include "vision/mono_slam/start_target.hpp"
 
@@ -35,7 +36,7 @@ struct MonoSlamOptions {
   double search_deviations = 3;
   // When that finds too little the camera was jerked: once more, farther.
   double jerk_deviations = 9;
-  double least_score = 0.9;  // ZNCC of a match
+  double least_score = 0.85;  // ZNCC of a match
   ConsensusOptions consensus;
   LandmarkRules rules;
   InterestOptions interest;
@@ -161,8 +162,8 @@ class MonoSlam {
   std::vector<Look> expected_looks() const;
   std::optional<Prediction> expected(const Landmark& landmark) const;
   void measure(double deviations);
-  std::optional<Eigen::Vector2d> look_for(Landmark* landmark, const Prediction& prediction,
-                                          double deviations) const;
+  std::optional<Match> look_for(Landmark* landmark, const Prediction& prediction,
+                                double deviations) const;
   int take(const std::vector<Look*>& group, const std::vector<Measurement>& measurements);
   void weigh_particles();
 
@@ -173,7 +174,11 @@ class MonoSlam {
   void remove_failed();
   void add_points(const MonoInput& input, int most);
   bool add_point(const MonoInput& input, const Eigen::Vector2d& pixel);
-  Eigen::Vector2d guessed_inverse_distance() const;
+  struct InverseDepthPrior {
+    double mean;  // 1/m
+    double sigma;
+  };
+  InverseDepthPrior inverse_depth_prior(const Eigen::Vector2d& pixel) const;
   void make_room();
   void erase(std::size_t landmark);
   void keep(PointId id, const cv::Mat& grey, const Eigen::Vector2d& pixel);

@@ -45,8 +45,8 @@ struct Point {
 
 struct Sighting {
   Eigen::Vector2d pixel;
-  Eigen::Matrix<double, 2, kPoseRows> by_pose;  // by the errors of position and rotation
-  PointJacobian by_point;                       // by `values`
+  Eigen::Matrix<double, 2, kCameraRows> by_camera;  // by the error of its state
+  PointJacobian by_point;                           // by `values`
 };
 
 // Where the point is seen; nothing when behind the camera or beyond the lens's angle. Not of rays.
@@ -56,10 +56,11 @@ std::optional<Sighting> sighting(const Camera& camera, const CameraState& state,
 std::optional<Sighting> sighting_along(const Camera& camera, const CameraState& state,
                                        const Point& ray, double distance);
 
-// The ray through a pixel, its values' Jacobians by the errors of the pose and by the pixel.
+// The ray through a pixel, its values' Jacobians by the error of the camera's state and by the
+// pixel.
 struct NewRay {
   Point point;
-  Eigen::Matrix<double, 5, kPoseRows> by_pose;
+  Eigen::Matrix<double, 5, kCameraRows> by_camera;
   Eigen::Matrix<double, 5, 2> by_pixel;
 };
 NewRay ray_through(const Camera& camera, const CameraState& state, const Eigen::Vector2d& pixel);

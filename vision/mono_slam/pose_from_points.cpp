@@ -28,8 +28,9 @@ std::optional<NormalEquations> linearised(const Camera& camera, const CameraStat
     const auto s = sighting(camera, state, point);
     if (!s) return std::nullopt;
     const Vector2d error = seen.pixel - s->pixel;
-    out.hessian += s->by_pose.transpose() * s->by_pose;
-    out.gradient += s->by_pose.transpose() * error;
+    const Eigen::Matrix<double, 2, kPoseRows> by_pose = s->by_camera.leftCols<kPoseRows>();
+    out.hessian += by_pose.transpose() * by_pose;
+    out.gradient += by_pose.transpose() * error;
     out.squares += error.squaredNorm();
   }
   return out;

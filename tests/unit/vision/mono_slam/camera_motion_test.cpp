@@ -33,7 +33,7 @@ TEST(CameraMotion, JacobianIsTheDerivativeWithAndWithoutControl) {
 
 TEST(CameraMotion, CorrectionAndDifferenceAreInverse) {
   CameraError error;
-  error << 0.1, 0.2, -0.3, 0.4, -0.2, 0.1, 1, 2, 3, -1, -2, -3;
+  error << 0.1, 0.2, -0.3, 0.4, -0.2, 0.1, 1, 2, 3, -1, -2, -3, 0.01;
   const CameraState state = moving_state();
   EXPECT_LT((difference(corrected(state, error), state) - error).norm(), 1e-12);
 }

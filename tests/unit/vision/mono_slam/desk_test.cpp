@@ -34,9 +34,9 @@ int mapped(const MonoResult& result) {
 
 void expect_whole(const Summary& summary) {
   EXPECT_EQ(summary.lost, 0);
-  EXPECT_LT(quantile(summary.innovations, 0.5), 0.7);
-  EXPECT_LT(quantile(summary.innovations, 0.9), 1.6);
-  EXPECT_LT(quantile(summary.residuals, 0.5), 0.3);
+  EXPECT_LT(quantile(summary.innovations, 0.5), 0.4);
+  EXPECT_LT(quantile(summary.innovations, 0.9), 1.2);
+  EXPECT_LT(quantile(summary.residuals, 0.5), 0.2);
   // The map is full after two seconds.
   for (std::size_t i = 60; i < summary.results.size(); ++i) {
     EXPECT_GE(summary.results[i].visible, 28) << i;

@@ -70,7 +70,7 @@ MatrixXd dense_jacobian(const Filter& filter, const std::vector<Measurement>& me
       row += rows_of(filter.point(id).kind);
     }
     auto line = h.middleRows<2>(2 * static_cast<Eigen::Index>(i));
-    line.leftCols<kPoseRows>() = prediction.sighting.by_pose;
+    line.leftCols<kCameraRows>() = prediction.sighting.by_camera;
     line.middleCols(row, prediction.sighting.by_point.cols()) = prediction.sighting.by_point;
   }
   return h;

@@ -13,12 +13,6 @@ using test::moving_state;
 // In pixels per unit; derivatives are up to some 1e3, so this is about 1e-9 of them.
 constexpr double kTolerance = 1e-5;
 
-CameraState with_pose_error(const CameraState& state, const Eigen::VectorXd& error) {
-  CameraError whole = CameraError::Zero();
-  whole.head<kPoseRows>() = error;
-  return corrected(state, whole);
-}
-
 Point in_front(PointKind kind) {
   const NewRay ray = ray_through(test::wide_angle(), moving_state(), {100, 80});
   Point point = ray.point;
@@ -38,29 +32,56 @@ CameraState second_view() {
   return state;
 }
 
+CameraState with_rolling_shutter(CameraState state) {
+  state.readout = 0.03;
+  return state;
+}
+
+void expect_derivatives(const Camera& camera, const CameraState& state) {
+  for (const PointKind kind : {PointKind::position, PointKind::inverse_depth}) {
+    const Point point = in_front(kind);
+    const auto seen = sighting(camera, state, point);
+    ASSERT_TRUE(seen);
+    const auto by_camera = test::numeric_jacobian(
+        [&](const Eigen::VectorXd& error) -> Eigen::VectorXd {
+          return sighting(camera, corrected(state, error), point)->pixel;
+        },
+        kCameraRows);
+    const auto by_point = test::numeric_jacobian(
+        [&](const Eigen::VectorXd& error) -> Eigen::VectorXd {
+          Point other = point;
+          other.values += error;
+          return sighting(camera, state, other)->pixel;
+        },
+        rows_of(kind));
+    EXPECT_LT((seen->by_camera - by_camera).cwiseAbs().maxCoeff(), kTolerance);
+    EXPECT_LT((seen->by_point - by_point).cwiseAbs().maxCoeff(), kTolerance);
+  }
+}
+
 TEST(PointSighting, JacobiansAreTheDerivatives) {
   for (const Camera& camera : test::cameras()) {
-    for (const PointKind kind : {PointKind::position, PointKind::inverse_depth}) {
-      const CameraState state = second_view();
-      const Point point = in_front(kind);
-      const auto seen = sighting(camera, state, point);
-      ASSERT_TRUE(seen);
-      const auto by_pose = test::numeric_jacobian(
-          [&](const Eigen::VectorXd& error) -> Eigen::VectorXd {
-            return sighting(camera, with_pose_error(state, error), point)->pixel;
-          },
-          kPoseRows);
-      const auto by_point = test::numeric_jacobian(
-          [&](const Eigen::VectorXd& error) -> Eigen::VectorXd {
-            Point other = point;
-            other.values += error;
-            return sighting(camera, state, other)->pixel;
-          },
-          rows_of(kind));
-      EXPECT_LT((seen->by_pose - by_pose).cwiseAbs().maxCoeff(), kTolerance);
-      EXPECT_LT((seen->by_point - by_point).cwiseAbs().maxCoeff(), kTolerance);
-    }
+    expect_derivatives(camera, second_view());
+    expect_derivatives(camera, with_rolling_shutter(second_view()));
   }
+}
+
+// A camera that turns while its lines are read sees what is at the top as it was before.
+TEST(PointSighting, ARollingShutterShearsWhatATurningCameraSees) {
+  const Camera camera = pinhole(320, 240, 264, 264, 159.5, 119.5);
+  CameraState state;
+  state.angular_velocity = {0, 0.5, 0};
+  const auto shift = [&](double y) {
+    Point point;
+    point.values = unproject(camera, {160, y});
+    return sighting(camera, with_rolling_shutter(state), point)->pixel.x() -
+           sighting(camera, state, point)->pixel.x();
+  };
+  // 264 px a radian, 0.5 rad/s, half of 0.03 s: turning right, things move left. Less one line of
+  // 240 between the lines' middles and their edges.
+  EXPECT_NEAR(shift(camera.height - 1), -1.98, 0.02);
+  EXPECT_NEAR(shift(0), 1.98, 0.02);
+  EXPECT_NEAR(shift(0.5 * (camera.height - 1)), 0, 1e-3);
 }
 
 TEST(PointSighting, JacobiansAlongARayAreTheDerivatives) {
@@ -107,35 +128,41 @@ TEST(PointSighting, NothingIsSeenBehindTheCamera) {
   EXPECT_FALSE(sighting(test::wide_angle(), moving_state(), behind));
 }
 
+void expect_ray(const Camera& camera, const CameraState& state, double tolerance) {
+  for (const Eigen::Vector2d& pixel :
+       {Eigen::Vector2d(20, 30), Eigen::Vector2d(161, 121), Eigen::Vector2d(300, 200)}) {
+    const NewRay ray = ray_through(camera, state, pixel);
+    const auto seen = sighting_along(camera, state, ray.point, 2);
+    ASSERT_TRUE(seen);
+    EXPECT_LT((seen->pixel - pixel).norm(), tolerance);
+    // A ray's values are in its own axes: another ray's direction, written in them.
+    const auto values = [&](const Point& other) -> Eigen::VectorXd {
+      const Eigen::Vector3d local = ray.point.axes.transpose() * other.direction();
+      Eigen::VectorXd out(5);
+      out << other.values.head<3>(), local.y() / local.x(), local.z() / local.x();
+      return out;
+    };
+    const auto by_camera = test::numeric_jacobian(
+        [&](const Eigen::VectorXd& error) {
+          return values(ray_through(camera, corrected(state, error), pixel).point);
+        },
+        kCameraRows);
+    const auto by_pixel = test::numeric_jacobian(
+        [&](const Eigen::VectorXd& error) {
+          return values(ray_through(camera, state, pixel + error).point);
+        },
+        2, 1e-4);
+    EXPECT_LT((ray.by_camera - by_camera).cwiseAbs().maxCoeff(), 1e-7);
+    EXPECT_LT((ray.by_pixel - by_pixel).cwiseAbs().maxCoeff(), 1e-7);
+  }
+}
+
 TEST(NewRay, GoesThroughItsPixelAndHasTheDerivativesOfThat) {
   for (const Camera& camera : test::cameras()) {
-    const CameraState state = moving_state();
-    for (const Eigen::Vector2d& pixel :
-         {Eigen::Vector2d(20, 30), Eigen::Vector2d(161, 121), Eigen::Vector2d(300, 200)}) {
-      const NewRay ray = ray_through(camera, state, pixel);
-      const auto seen = sighting_along(camera, state, ray.point, 2);
-      ASSERT_TRUE(seen);
-      EXPECT_LT((seen->pixel - pixel).norm(), 1e-6);
-      // A ray's values are in its own axes: another ray's direction, written in them.
-      const auto values = [&](const Point& other) -> Eigen::VectorXd {
-        const Eigen::Vector3d local = ray.point.axes.transpose() * other.direction();
-        Eigen::VectorXd out(5);
-        out << other.values.head<3>(), local.y() / local.x(), local.z() / local.x();
-        return out;
-      };
-      const auto by_pose = test::numeric_jacobian(
-          [&](const Eigen::VectorXd& error) {
-            return values(ray_through(camera, with_pose_error(state, error), pixel).point);
-          },
-          kPoseRows);
-      const auto by_pixel = test::numeric_jacobian(
-          [&](const Eigen::VectorXd& error) {
-            return values(ray_through(camera, state, pixel + error).point);
-          },
-          2, 1e-4);
-      EXPECT_LT((ray.by_pose - by_pose).cwiseAbs().maxCoeff(), 1e-7);
-      EXPECT_LT((ray.by_pixel - by_pixel).cwiseAbs().maxCoeff(), 1e-7);
-    }
+    expect_ray(camera, moving_state(), 1e-6);
+    // At this fast turn, 1.5 rad/s, its line is guessed wrong by some pixels, during which what is
+    // seen moves by up to 0.2.
+    expect_ray(camera, with_rolling_shutter(moving_state()), 0.25);
   }
 }
 
