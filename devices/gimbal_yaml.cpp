@@ -2,35 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <numbers>
-
-#include <yaml-cpp/yaml.h>
 
 namespace armsreach {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 constexpr std::array kAxisNames{"pan", "tilt", "roll"};
-constexpr std::array kKeys{"order",     "base",        "offsets",          "lower_deg",
-                           "upper_deg", "fastest_deg", "acceleration_deg", "lag"};
-
-// Travels as an exception inside this file, as yaml-cpp's own do.
-struct Complaint {
-  std::string what;
-};
-
-Eigen::Vector3d vector_from(const YAML::Node& node, const std::string& key) {
-  Eigen::Vector3d vector;
-  bool good = node.IsSequence() && node.size() == 3;
-  for (int i = 0; good && i < 3; ++i)
-    good = YAML::convert<double>::decode(node[i], vector[i]) && std::isfinite(vector[i]);
-  if (!good) throw Complaint{"'" + key + "' is not three numbers"};
-  return vector;
-}
-
-std::array<GimbalAxis, 3> order_from(const YAML::Node& node) {
+std::array<GimbalAxis, 3> order_from(YamlMap& map) {
+  const YAML::Node node = map.need("order");
   std::array<GimbalAxis, 3> order{};
   std::array<int, 3> seen{};
   const bool three = node.IsSequence() && node.size() == 3;
@@ -43,50 +24,38 @@ std::array<GimbalAxis, 3> order_from(const YAML::Node& node) {
     ++seen[axis];
   }
   if (seen != std::array{1, 1, 1})
-    throw Complaint{"'order' is not pan, tilt and roll in some order"};
+    throw map.complaint("order", "is not pan, tilt and roll in some order");
   return order;
 }
 
-Pose pose_from(const YAML::Node& node) {
-  if (!node.IsMap() || !node["rotation_vector"] || !node["translation"])
-    throw Complaint{"'base' is not {rotation_vector, translation}"};
-  return {so3_exp(vector_from(node["rotation_vector"], "base.rotation_vector")),
-          vector_from(node["translation"], "base.translation")};
+Pose pose_from(YamlMap map) {
+  const Pose pose(so3_exp(map.vector<3>("rotation_vector")), map.vector<3>("translation"));
+  map.refuse_others();
+  return pose;
 }
 
-void check_keys(const YAML::Node& map) {
-  if (!map.IsMap()) throw Complaint{"the gimbal is not a map"};
-  for (const auto& entry : map) {
-    const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "?";
-    if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end())
-      throw Complaint{"unknown key '" + key + "' in the gimbal"};
-  }
+std::array<Eigen::Vector3d, 3> offsets_from(YamlMap& map) {
+  const YAML::Node node = map.need("offsets");
+  std::array<Eigen::Vector3d, 3> offsets;
+  if (!node.IsSequence() || node.size() != offsets.size())
+    throw map.complaint("offsets", "are not three");
+  for (std::size_t i = 0; i < offsets.size(); ++i)
+    offsets[i] = vector_from<3>(node[i], map.path("offsets"));
+  return offsets;
 }
 
-GimbalModel model_from(const YAML::Node& map) {
-  check_keys(map);
-  GimbalModel model;
+void read_limits(YamlMap& map, GimbalModel& model) {
   const auto degrees = [&](const char* key, Eigen::Vector3d& value) {
-    if (map[key]) value = kRadians * vector_from(map[key], key);
+    if (map.find(key)) value = kRadians * map.vector<3>(key);
   };
   degrees("lower_deg", model.lower);
   degrees("upper_deg", model.upper);
   degrees("fastest_deg", model.fastest);
   degrees("acceleration_deg", model.acceleration);
   if ((model.lower.array() > 0).any() || (model.upper.array() < 0).any())
-    throw Complaint{"rest, where all angles are 0, is outside of 'lower_deg' and 'upper_deg'"};
+    throw map.complaint("rest, where all angles are 0, is outside of 'lower_deg' and 'upper_deg'");
   if (model.fastest.minCoeff() <= 0 || model.acceleration.minCoeff() <= 0)
-    throw Complaint{"'fastest_deg' and 'acceleration_deg' are not above 0"};
-  if (map["order"]) model.order = order_from(map["order"]);
-  if (map["base"]) model.mount_from_base = pose_from(map["base"]);
-  if (const YAML::Node offsets = map["offsets"]) {
-    if (!offsets.IsSequence() || offsets.size() != 3) throw Complaint{"'offsets' are not three"};
-    for (std::size_t i = 0; i < 3; ++i) model.offsets[i] = vector_from(offsets[i], "offsets");
-  }
-  if (map["lag"] && (!YAML::convert<double>::decode(map["lag"], model.lag) ||
-                     !(model.lag >= 0 && model.lag <= 1)))
-    throw Complaint{"'lag' is not from 0 to 1 s"};
-  return model;
+    throw map.complaint("'fastest_deg' and 'acceleration_deg' are not above 0");
 }
 
 void write_vector(std::ostream& out, const Eigen::Vector3d& v) {
@@ -95,17 +64,20 @@ void write_vector(std::ostream& out, const Eigen::Vector3d& v) {
 
 }  // namespace
 
-Result<GimbalModel> read_gimbal_model(const YAML::Node& node, const std::string& where) {
+GimbalModel gimbal_model_from(YamlMap map) {
   const std::string remedy =
       "a gimbal is {order: [pan, tilt, roll], base: {rotation_vector, translation}, offsets: three "
       "vectors, lower_deg, upper_deg, fastest_deg, acceleration_deg: [pan, tilt, roll], lag}";
-  try {
-    return model_from(node);
-  } catch (const Complaint& complaint) {
-    return Error{complaint.what, where, remedy};
-  } catch (const YAML::Exception& e) {
-    return Error{e.what(), where, remedy};
-  }
+  return with_remedy(remedy, [&] {
+    GimbalModel model;
+    read_limits(map, model);
+    if (map.find("order")) model.order = order_from(map);
+    if (map.find("base")) model.mount_from_base = pose_from(map.section("base"));
+    if (map.find("offsets")) model.offsets = offsets_from(map);
+    model.lag = map.number("lag", 0, 1, model.lag);  // s
+    map.refuse_others();
+    return model;
+  });
 }
 
 void write_gimbal_model(std::ostream& out, const GimbalModel& model) {

@@ -13,19 +13,14 @@
 #pragma once
 
 #include <ostream>
-#include <string>
 
 #include "vision/core/gimbal.hpp"
-#include "vision/core/result.hpp"
-
-namespace YAML {
-class Node;
-}
+#include "vision/core/yaml_map.hpp"
 
 namespace armsreach {
 
-// Unknown keys are refused by name; `where` names the node in errors.
-Result<GimbalModel> read_gimbal_model(const YAML::Node& node, const std::string& where);
+// For readers of files that have gimbals among other things: throws YamlComplaint.
+GimbalModel gimbal_model_from(YamlMap map);
 
 // As one flow map, "{order: ..., ...}".
 void write_gimbal_model(std::ostream& out, const GimbalModel& model);

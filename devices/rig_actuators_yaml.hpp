@@ -20,19 +20,12 @@
 // and gimbal.hpp. `carries` is main, then.
 #pragma once
 
-#include <string>
-
 #include "devices/rig.hpp"
-#include "vision/core/result.hpp"
-
-namespace YAML {
-class Node;
-}
+#include "vision/core/yaml_map.hpp"
 
 namespace armsreach {
 
-// Into a rig whose sensors have been read. Unknown keys are refused by name; throws what yaml-cpp
-// throws.
-Status read_actuators(const YAML::Node& map, const std::string& where, RigSpec& rig);
+// Into a rig whose sensors have been read. Throws YamlComplaint.
+void read_actuators(const YAML::Node& list, RigSpec& rig);
 
 }  // namespace armsreach

@@ -158,6 +158,17 @@ Buffer::Buffer(const Gl& gl) {
   handle_ = GlHandle(gl, id, delete_buffer);
 }
 
+void describe_vertices(const Gl& gl, std::size_t stride,
+                       const std::vector<VertexAttribute>& attributes) {
+  for (GLuint location = 0; location < attributes.size(); ++location) {
+    const VertexAttribute& attribute = attributes[location];
+    gl.EnableVertexAttribArray(location);
+    gl.VertexAttribPointer(location, attribute.size, attribute.type,
+                           attribute.normalised ? GL_TRUE : GL_FALSE, static_cast<GLsizei>(stride),
+                           reinterpret_cast<const void*>(attribute.offset));
+  }
+}
+
 VertexArray::VertexArray(const Gl& gl) {
   GLuint id = 0;
   gl.GenVertexArrays(1, &id);

@@ -127,6 +127,17 @@ class VertexArray {
   GlHandle handle_;
 };
 
+struct VertexAttribute {
+  GLint size;  // components
+  GLenum type;
+  bool normalised;
+  std::size_t offset;  // bytes, in a vertex
+};
+// Of the bound array: vertices lie `stride` bytes apart in the bound buffer, and attributes take
+// the shader's locations 0, 1, ...
+void describe_vertices(const Gl& gl, std::size_t stride,
+                       const std::vector<VertexAttribute>& attributes);
+
 struct FramebufferOptions {
   int width = 0;
   int height = 0;

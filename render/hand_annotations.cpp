@@ -12,7 +12,6 @@ namespace {
 
 using Eigen::Vector2f;
 
-constexpr float kHalfAngle = 0.26F;  // rad of a grasp's wedge
 constexpr float kWedgeFrom = 0.75F;  // sizes of the hand from its centre
 constexpr float kWedgeTo = 2.6F;
 constexpr float kOnBorder = 3;  // px of the image: an outline there is where the arm comes in
@@ -86,7 +85,8 @@ void draw_rings(ImDrawList& list, const Hand& hand, const Map& map) {
   if (hand.rings.empty()) return;
   const float reach = *std::max_element(hand.rings.begin(), hand.rings.end());
   const Vector2f axis(std::sin(hand.angle), -std::cos(hand.angle));
-  list.AddLine(centre, map(hand.center + reach * axis), imgui_color(faded(theme::kInk, 150)), 1);
+  const Vector2f foot = hand.tip + axis.dot(hand.center - hand.tip) * axis;
+  list.AddLine(map(foot), map(foot + reach * axis), imgui_color(faded(theme::kInk, 150)), 1);
 }
 
 // A beam that fades with distance, and an arrow along its middle.
@@ -106,7 +106,7 @@ void draw_wedge(ImDrawList& list, const Hand& hand, const Map& map) {
       list.PrimWriteIdx(static_cast<ImDrawIdx>(first + 2 * i + corner));
   }
   for (int i = 0; i <= kSteps; ++i) {
-    const float angle = kHalfAngle * (2 * static_cast<float>(i) / kSteps - 1);
+    const float angle = hand.wedge * (2 * static_cast<float>(i) / kSteps - 1);
     list.PrimWriteVtx(at(angle, kWedgeFrom), uv, near_color);
     list.PrimWriteVtx(at(angle, kWedgeTo), uv, far_color);
   }
@@ -193,7 +193,7 @@ void draw_hands(ImDrawList& list, const Fonts& fonts, const Scene& scene, const 
     if (!drawable(hand)) continue;
     draw_rings(list, hand, map);
     draw_outline(list, hand, view, map);
-    if (hand.grasping) draw_wedge(list, hand, map);
+    if (hand.wedge > 0) draw_wedge(list, hand, map);
     draw_gesture(list, fonts, hand, view, map);
   }
 }

@@ -3,18 +3,13 @@
 namespace armsreach::render {
 
 InstancedQuads::InstancedQuads(const Gl& gl, std::size_t stride,
-                               const std::vector<InstanceAttribute>& attributes)
+                               const std::vector<VertexAttribute>& attributes)
     : gl_(&gl), stride_(stride), array_(gl), instances_(gl) {
   array_.bind();
   instances_.bind(GL_ARRAY_BUFFER);
-  for (GLuint index = 0; index < attributes.size(); ++index) {
-    const InstanceAttribute& attribute = attributes[index];
-    gl.EnableVertexAttribArray(index);
-    gl.VertexAttribPointer(index, attribute.size, attribute.type,
-                           attribute.normalised ? GL_TRUE : GL_FALSE, static_cast<GLsizei>(stride),
-                           reinterpret_cast<const void*>(attribute.offset));
-    gl.VertexAttribDivisor(index, 1);
-  }
+  describe_vertices(gl, stride, attributes);
+  for (GLuint location = 0; location < attributes.size(); ++location)
+    gl.VertexAttribDivisor(location, 1);
 }
 
 void InstancedQuads::draw(const void* instances, std::size_t count) const {

@@ -9,19 +9,11 @@
 
 namespace armsreach::render {
 
-struct InstanceAttribute {
-  GLint size;  // components
-  GLenum type;
-  bool normalised;
-  std::size_t offset;  // bytes, in an instance
-};
-
 class InstancedQuads {
  public:
   InstancedQuads() = default;
-  // Attributes take the shader's locations 0, 1, ...; an instance has `stride` bytes.
-  InstancedQuads(const Gl& gl, std::size_t stride,
-                 const std::vector<InstanceAttribute>& attributes);
+  // An instance has `stride` bytes.
+  InstancedQuads(const Gl& gl, std::size_t stride, const std::vector<VertexAttribute>& attributes);
   // With the program in use.
   void draw(const void* instances, std::size_t count) const;
 

@@ -36,7 +36,7 @@ Result<LinePainter> LinePainter::make(const Gl& gl) {
   if (!program) return program.error();
   LinePainter painter;
   painter.program_ = *std::move(program);
-  std::vector<InstanceAttribute> attributes;
+  std::vector<VertexAttribute> attributes;
   for (const std::size_t start : {std::size_t{0}, sizeof(LineEnd)}) {
     attributes.push_back({3, GL_FLOAT, false, start + offsetof(LineEnd, point_in_world)});
     attributes.push_back({4, GL_UNSIGNED_BYTE, true, start + offsetof(LineEnd, color)});

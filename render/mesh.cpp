@@ -159,15 +159,10 @@ GpuMesh::GpuMesh(const Gl& gl, const Mesh& mesh)
   gl.BufferData(GL_ELEMENT_ARRAY_BUFFER,
                 static_cast<GLsizeiptr>(mesh.indices.size() * sizeof(std::uint32_t)),
                 mesh.indices.data(), GL_STATIC_DRAW);
-  const auto attribute = [&gl](GLuint index, GLint size, GLenum type, GLboolean normalised,
-                               std::size_t offset) {
-    gl.EnableVertexAttribArray(index);
-    gl.VertexAttribPointer(index, size, type, normalised, sizeof(Vertex),
-                           reinterpret_cast<const void*>(offset));
-  };
-  attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, position));
-  attribute(1, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, normal));
-  attribute(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(Vertex, color));
+  describe_vertices(gl, sizeof(Vertex),
+                    {{3, GL_FLOAT, false, offsetof(Vertex, position)},
+                     {3, GL_FLOAT, false, offsetof(Vertex, normal)},
+                     {4, GL_UNSIGNED_BYTE, true, offsetof(Vertex, color)}});
   gl.BindVertexArray(0);
 }
 

@@ -20,15 +20,10 @@ Result<PanelPainter> PanelPainter::make(const Gl& gl) {
   painter.array_.bind();
   painter.vertices_.bind(GL_ARRAY_BUFFER);
   painter.indices_.bind(GL_ELEMENT_ARRAY_BUFFER);
-  const auto attribute = [&gl](GLuint index, GLint size, GLenum type, GLboolean normalised,
-                               std::size_t offset) {
-    gl.EnableVertexAttribArray(index);
-    gl.VertexAttribPointer(index, size, type, normalised, sizeof(ImDrawVert),
-                           reinterpret_cast<const void*>(offset));
-  };
-  attribute(0, 2, GL_FLOAT, GL_FALSE, offsetof(ImDrawVert, pos));
-  attribute(1, 2, GL_FLOAT, GL_FALSE, offsetof(ImDrawVert, uv));
-  attribute(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(ImDrawVert, col));
+  describe_vertices(gl, sizeof(ImDrawVert),
+                    {{2, GL_FLOAT, false, offsetof(ImDrawVert, pos)},
+                     {2, GL_FLOAT, false, offsetof(ImDrawVert, uv)},
+                     {4, GL_UNSIGNED_BYTE, true, offsetof(ImDrawVert, col)}});
   return painter;
 }
 

@@ -19,7 +19,8 @@ Vector3d unit_normal(const SurfacePoint& point) {
 }
 
 // Mean of the normals within a cone about `up` that narrows from 45 to 10 degrees.
-Vector3d level_up(const Surface& surface, Vector3d up) {
+std::optional<Vector3d> level_up(const Surface& surface, Vector3d up) {
+  bool found = false;
   for (const double cone : {0.71, 0.82, 0.90, 0.95, 0.97, 0.985}) {
     Vector3d sum = Vector3d::Zero();
     for (const SurfaceBlockPtr& block : surface.blocks) {
@@ -29,8 +30,11 @@ Vector3d level_up(const Surface& surface, Vector3d up) {
         if (normal.dot(up) > cone) sum += normal;
       }
     }
-    if (sum.norm() > 20) up = sum.normalized();
+    if (sum.norm() <= 20) continue;
+    up = sum.normalized();
+    found = true;
   }
+  if (!found) return std::nullopt;
   return up;
 }
 
@@ -51,14 +55,15 @@ void set_depth_range(View& view, double distance, double radius) {
 
 }  // namespace
 
+std::optional<Vector3d> known_up(const Scene& scene) {
+  if (!scene.up_in_world.isZero()) return scene.up_in_world.normalized();
+  if (!scene.surface) return std::nullopt;
+  return level_up(*scene.surface, -scene.world_from_camera.rotation_matrix().col(1));
+}
+
 RoomFromWorld guess_room(const Scene& scene) {
   const Matrix3d world_from_camera = scene.world_from_camera.rotation_matrix();
-  Vector3d up = scene.up_in_world;
-  if (up.isZero()) {
-    up = -world_from_camera.col(1);
-    if (scene.surface) up = level_up(*scene.surface, up);
-  }
-  up.normalize();
+  const Vector3d up = known_up(scene).value_or(-world_from_camera.col(1));
   Vector3d away = world_from_camera.col(2) - world_from_camera.col(2).dot(up) * up;
   // Looking straight down or up, away is where the image's upper edge points.
   if (away.norm() < 0.2) away = -world_from_camera.col(1) + world_from_camera.col(1).dot(up) * up;

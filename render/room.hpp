@@ -19,6 +19,10 @@ using RoomFromWorld = Eigen::Quaterniond;
 // surface that faces up is level, so the mean of the normals near the camera's up is taken.
 RoomFromWorld guess_room(const Scene& scene);
 
+// The direction against gravity where it is known: the scene's, or that of mapped level surface, by
+// the same guess. A camera that looks straight down does not know.
+std::optional<Eigen::Vector3d> known_up(const Scene& scene);
+
 // The extent of what is mapped, seen and inserted, in room axes; stray points are left out.
 std::optional<Eigen::AlignedBox3d> scene_bounds(const Scene& scene, const RoomFromWorld& room);
 

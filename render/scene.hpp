@@ -50,12 +50,13 @@ struct Cursor {
 struct Hand {
   std::vector<Eigen::Vector2f> outline;  // closed; may be empty
   Eigen::Vector2f center{0, 0};
-  float size = 0;            // px, the root of its area
-  float angle = 0;           // rad, 0 with the fingers up, clockwise
-  std::string gesture;       // empty: none can be told
-  float score = 0;           // how well it matches, up to 1
-  bool grasping = false;     // it points along its angle
-  std::vector<float> rings;  // px, radii that its detector looks at; empty: not shown
+  float size = 0;             // px, the root of its area
+  float angle = 0;            // rad, 0 with the fingers up, clockwise
+  std::string gesture;        // empty: none can be told
+  float score = 0;            // how well it matches, up to 1
+  Eigen::Vector2f tip{0, 0};  // what its axis goes through: a fingertip, or the centre
+  float wedge = 0;            // rad, half the angle that a grasp points at along its axis; 0: none
+  std::vector<float> rings;   // px, radii that its detector looks at; empty: not shown
 };
 
 // A thing in the image that is known by name.

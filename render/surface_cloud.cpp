@@ -72,15 +72,10 @@ Result<SurfaceCloud> SurfaceCloud::make(const Gl& gl) {
 void SurfaceCloud::describe_points() const {
   array_.bind();
   points_.bind(GL_ARRAY_BUFFER);
-  const auto attribute = [this](GLuint index, GLint size, GLenum type, GLboolean normalised,
-                                std::size_t offset) {
-    gl_->EnableVertexAttribArray(index);
-    gl_->VertexAttribPointer(index, size, type, normalised, sizeof(SurfacePoint),
-                             reinterpret_cast<const void*>(offset));
-  };
-  attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(SurfacePoint, point_in_world));
-  attribute(1, 3, GL_BYTE, GL_TRUE, offsetof(SurfacePoint, normal));
-  attribute(2, 1, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(SurfacePoint, intensity));
+  describe_vertices(*gl_, sizeof(SurfacePoint),
+                    {{3, GL_FLOAT, false, offsetof(SurfacePoint, point_in_world)},
+                     {3, GL_BYTE, true, offsetof(SurfacePoint, normal)},
+                     {1, GL_UNSIGNED_BYTE, true, offsetof(SurfacePoint, intensity)}});
 }
 
 void SurfaceCloud::grow(std::uint32_t points) {

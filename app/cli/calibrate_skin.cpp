@@ -158,6 +158,9 @@ Status add_pictures(const CalibrateSkinOptions& options, Lessons* lessons) {
 // kitchen, where about half of those of hands do).
 Status check_gestures(const Lessons& lessons) {
   constexpr int kOneIn = 5;
+  constexpr int kFewest = 3;  // views that say something
+  const auto views = static_cast<int>(lessons.views().size());
+  if (views < kFewest) return ok();
   auto templates = load_templates("", "wearable");
   if (!templates) return templates.error();
   const auto how = gesture::options_for(*templates);
@@ -167,7 +170,6 @@ Status check_gestures(const Lessons& lessons) {
     const auto hands = detector.detect(view.skin, view.bgr);
     told += !hands.empty() && hands[0].gesture ? 1 : 0;
   }
-  const auto views = static_cast<int>(lessons.views().size());
   if (kOneIn * told >= views) return ok();
   return Error{"what has the colour of skin is hardly ever a hand: it makes a gesture in " +
                    std::to_string(told) + " of " + std::to_string(views) + " views",
@@ -196,7 +198,7 @@ Status add_live_view(const CalibrateSkinOptions& options, Lessons* lessons) {
                     std::to_string(lessons->views().size()) + " views learnt from");
     }
   }
-  return lessons->views().empty() ? ok() : check_gestures(*lessons);
+  return ok();
 }
 
 // For everybody: a list of pixels, and pictures with masks, where there are any, counting as much.
@@ -233,6 +235,9 @@ Status calibrate(const CalibrateSkinOptions& options) {
       options.source.empty() ? add_pictures(options, &lessons) : add_live_view(options, &lessons);
   if (!status) return status;
   if (auto enough = lessons.check(); !enough) return enough;
+  if (options.masks.empty()) {
+    if (auto hands = check_gestures(lessons); !hands) return hands;
+  }
   auto examples = examples_of(lessons.views(), lessons.views().size());
   if (!examples) return examples.error();
   auto model = fitted(lessons, *examples, options.balance);

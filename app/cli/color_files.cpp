@@ -13,6 +13,7 @@
 #include "devices/image_file.hpp"
 #include "render/assets.hpp"
 #include "vision/gesture/color_model_yaml.hpp"
+#include "vision/gesture/has_color.hpp"
 
 namespace armsreach::app {
 namespace {
@@ -57,7 +58,7 @@ Result<cv::Mat> read_picture(const fs::path& file) {
     return Error{picture.error().what, file.string(),
                  "give whole pictures: JPEG, PNG, PGM, PPM and BMP are read"};
   }
-  if (picture->type() == CV_8UC3) return picture;
+  if (gesture::has_color(*picture)) return picture;
   return Error{"is a grey picture, which has no colours", file.string(), "give a colour picture"};
 }
 

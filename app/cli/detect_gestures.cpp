@@ -8,7 +8,7 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/gesture_files.hpp"
-#include "app/cli/hand_pictures.hpp"
+#include "app/cli/gesture_options.hpp"
 #include "app/runtime/output_file.hpp"
 #include "vision/gesture/gesture_detector.hpp"
 
@@ -17,9 +17,7 @@ namespace {
 
 struct DetectGesturesOptions {
   std::vector<std::string> places;
-  std::string templates;
-  std::string vocabulary = "wearable";
-  SkinSource skin;
+  GestureOptions gestures;
   std::string json;
 };
 
@@ -44,13 +42,13 @@ nlohmann::json json_from_hand(const HandPicture& picture, const gesture::HandObs
 }
 
 Status detect(const DetectGesturesOptions& options) {
-  auto templates = load_templates(options.templates, options.vocabulary);
+  auto templates = load_templates(options.gestures.templates, options.gestures.vocabulary);
   if (!templates) return templates.error();
   const auto how = gesture::options_for(*templates);
   const gesture::GestureDetector detector(std::move(*templates), how);
   nlohmann::json all = nlohmann::json::array();
-  const auto status =
-      for_readable_hand_pictures(options.places, options.skin, [&](const HandPicture& picture) {
+  const auto status = for_readable_hand_pictures(
+      options.places, options.gestures.skin, [&](const HandPicture& picture) {
         for (const auto& hand : detector.detect(picture.skin, picture.bgr))
           all.push_back(json_from_hand(picture, hand));
       });
@@ -64,12 +62,7 @@ void add_detect_gestures(CLI::App& detect_verb, Task* task) {
   CLI::App* command = detect_verb.add_subcommand("gestures", "hands and their gestures");
   auto o = std::make_shared<DetectGesturesOptions>();
   command->add_option("places", o->places, "images, videos, or folders of them")->required();
-  command->add_option("--templates", o->templates,
-                      "folder that `learn gesture` wrote; without it the program's own");
-  command->add_option("--vocabulary", o->vocabulary, "the program knows wearable and asl-digits")
-      ->capture_default_str();
-  command->add_option("--skin", o->skin.model, "skin model, from `calibrate skin`");
-  command->add_option("--masks", o->skin.masks, "folder of masks of the skin, PNG by name");
+  add_gesture_options(*command, &o->gestures);
   command->add_option("--json", o->json, "write what was found here")->required();
   command->callback([task, o] { *task = [o] { return detect(*o); }; });
 }

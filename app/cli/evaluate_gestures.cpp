@@ -13,8 +13,8 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/gesture_files.hpp"
+#include "app/cli/gesture_options.hpp"
 #include "app/cli/gesture_plots.hpp"
-#include "app/cli/hand_pictures.hpp"
 #include "app/runtime/output_file.hpp"
 #include "devices/files.hpp"
 #include "vision/gesture/gesture_detector.hpp"
@@ -26,9 +26,7 @@ namespace fs = std::filesystem;
 
 struct EvaluateGesturesOptions {
   std::vector<std::string> folders;
-  std::string templates;
-  std::string vocabulary = "wearable";
-  SkinSource skin;
+  GestureOptions gestures;
   std::string json;
   std::string plots;
 };
@@ -183,7 +181,7 @@ Status write_plots(const std::string& folder, const Evaluation& evaluation,
 }
 
 Status evaluate(const EvaluateGesturesOptions& options) {
-  auto templates = load_templates(options.templates, options.vocabulary);
+  auto templates = load_templates(options.gestures.templates, options.gestures.vocabulary);
   if (!templates) return templates.error();
   auto classes = class_folders(options.folders);
   if (!classes) return classes.error();
@@ -194,7 +192,7 @@ Status evaluate(const EvaluateGesturesOptions& options) {
   for (const fs::path& folder : *classes) {
     const std::string truth = folder.filename().string();
     const auto status = for_hand_pictures(
-        {folder.string()}, options.skin, [&](const HandPicture& picture) -> Status {
+        {folder.string()}, options.gestures.skin, [&](const HandPicture& picture) -> Status {
           for (std::size_t i = 0; i < detectors.size(); ++i) {
             const auto hands = detectors[i].detect(picture.skin, picture.bgr);
             const auto* hand = spoken_for(hands);
@@ -218,12 +216,7 @@ void add_evaluate_gestures(CLI::App& evaluate_verb, Task* task) {
   auto o = std::make_shared<EvaluateGesturesOptions>();
   command->add_option("folders", o->folders, "folders that have a folder for each gesture")
       ->required();
-  command->add_option("--templates", o->templates,
-                      "folder that `learn gesture` wrote; without it the program's own");
-  command->add_option("--vocabulary", o->vocabulary, "the program knows wearable and asl-digits")
-      ->capture_default_str();
-  command->add_option("--skin", o->skin.model, "skin model, from `calibrate skin`");
-  command->add_option("--masks", o->skin.masks, "folder of masks of the skin, PNG by name");
+  add_gesture_options(*command, &o->gestures);
   command->add_option("--json", o->json, "write the figures here");
   command->add_option("--plots", o->plots, "folder for roc.svg (over K) and confusion.svg");
   command->callback([task, o] { *task = [o] { return evaluate(*o); }; });

@@ -1,20 +1,19 @@
 #include "app/cli/hands_setup.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <string>
 #include <utility>
-
-#include <opencv2/imgproc.hpp>
 
 #include "app/cli/color_files.hpp"
 #include "app/cli/gesture_files.hpp"
 #include "render/assets.hpp"
 #include "vision/gesture/gesture_detector.hpp"
+#include "vision/gesture/reach.hpp"
 #include "vision/gesture/skin_segmenter.hpp"
 
 namespace armsreach::app {
@@ -32,26 +31,19 @@ Result<gesture::GestureTable> read_table(const std::string& path) {
   return gesture::read_gesture_table(in, path);
 }
 
-// `mask` with every part made larger by a share of its width on all sides.
-cv::Mat grown(const cv::Mat& mask, double share) {
-  const int radius = std::max(1, cvRound(share * mask.cols));
-  cv::Mat larger;
-  cv::dilate(mask, larger,
-             cv::getStructuringElement(cv::MORPH_RECT, {2 * radius + 1, 2 * radius + 1}));
-  return larger;
-}
-
-// Wood and walls have the colour of skin, but are farther away than a wearer's own hand. What has
-// no depth may be too near to have one; beside something far it is that one's edge.
-cv::Mat within_reach(const cv::Mat& skin, const Frame& frame, double reach) {
-  if (frame.depth.empty() || !frame.sensor->registered) return skin;
-  const cv::Mat far = frame.depth > reach;
-  const cv::Mat near = frame.depth <= reach;
-  cv::Mat gone = far | (grown(far, 0.02) & ~grown(near, 0.005));
-  if (gone.size() != skin.size()) cv::resize(gone, gone, skin.size(), 0, 0, cv::INTER_NEAREST);
-  cv::Mat left = skin.clone();
-  left.setTo(0, gone);
-  return left;
+// A gesture that is misspelt would never come.
+Status check_gestures(const gesture::GestureTable& table, const gesture::TemplateSet& templates,
+                      const std::string& where) {
+  std::set<std::string> known{gesture::kNothing, gesture::kGone};
+  for (const gesture::GestureTemplate& one : templates.templates) known.insert(one.gesture);
+  for (const auto& transition : table.transitions) {
+    if (known.count(transition.on)) continue;
+    std::string names;
+    for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
+    return Error{"a transition is on '" + transition.on + "', of which there is no template", where,
+                 "known here: " + names + "; see gesture.vocabulary and gesture.templates"};
+  }
+  return ok();
 }
 
 // Looks at one image after the other, on one thread.
@@ -67,7 +59,9 @@ class Looking {
 
   Sighting look(const Frame& frame) {
     const cv::Mat& bgr = frame.color;
-    const cv::Mat skin = within_reach(skin_.segment(bgr), frame, reach_);
+    cv::Mat skin = skin_.segment(bgr);
+    if (!frame.depth.empty() && frame.sensor->registered)
+      skin = gesture::within_reach(skin, frame.depth, reach_);
     return {hands_.detect(skin, bgr), things_ ? things_->find(bgr, skin) : gesture::ColorBlobs()};
   }
   const gesture::RingLayout& rings() const { return hands_.matcher().set().layout; }
@@ -89,12 +83,11 @@ Status check_target(const std::string& target, const std::optional<gesture::Colo
                "give gesture.colours a file that `learn colour " + name + "` has written to"};
 }
 
-Result<HandDetectors> make_detectors(const GestureConfig& config, const std::string& gaze_target,
-                                     bool show_rings) {
+Result<HandDetectors> make_detectors(const GestureConfig& config,
+                                     const gesture::TemplateSet& templates,
+                                     const std::string& gaze_target, bool show_rings) {
   auto skin = skin_model(config.skin);
   if (!skin) return skin.error();
-  auto templates = load_templates(config.templates, config.vocabulary);
-  if (!templates) return templates.error();
   std::optional<gesture::ColorModel> colors;
   if (!config.colours.empty()) {
     auto model = things_model(config.colours);
@@ -103,7 +96,7 @@ Result<HandDetectors> make_detectors(const GestureConfig& config, const std::str
   }
   if (auto status = check_target(gaze_target, colors); !status) return status.error();
   const auto looking =
-      std::make_shared<Looking>(*std::move(skin), *templates, std::move(colors), config.reach);
+      std::make_shared<Looking>(*std::move(skin), templates, std::move(colors), config.reach);
   HandDetectors detectors;
   if (show_rings)
     detectors.rings.assign(looking->rings().radii.begin(), looking->rings().radii.end());
@@ -125,7 +118,14 @@ Result<HandsSetup> make_hands_setup(const Config& all) {
   const GestureConfig& config = all.gesture;
   auto table = read_table(config.table);
   if (!table) return table.error();
-  auto detectors = make_detectors(config, all.gaze.target, all.show.rings);
+  auto templates = load_templates(config.templates, config.vocabulary);
+  if (!templates) return templates.error();
+  // The program's own table names more than every vocabulary has.
+  if (!config.table.empty()) {
+    if (auto status = check_gestures(*table, *templates, config.table); !status)
+      return status.error();
+  }
+  auto detectors = make_detectors(config, *templates, all.gaze.target, all.show.rings);
   if (!detectors) return detectors.error();
   HandsSetup setup;
   setup.detectors = *std::move(detectors);

@@ -75,6 +75,8 @@ void add(const cv::Mat& bgr, const cv::Mat& thing, gesture::ColorExamples* examp
 Status learn(const LearnColorOptions& options) {
   if (options.name == gesture::kSkin)
     return Error{"is the name of skin itself", options.name, "`calibrate skin` learns skin"};
+  if (options.name.find_first_not_of(" \t") == std::string::npos)
+    return Error{"is no name", "'" + options.name + "'", "name it as it shall be called"};
   auto region = read_region(options.region);
   if (!region) return region.error();
   gesture::ColorModel model;

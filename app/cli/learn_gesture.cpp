@@ -6,7 +6,7 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/gesture_files.hpp"
-#include "app/cli/hand_pictures.hpp"
+#include "app/cli/gesture_options.hpp"
 #include "vision/gesture/gesture_detector.hpp"
 
 namespace armsreach::app {
@@ -75,8 +75,7 @@ void add_learn_gesture(CLI::App& learn_verb, Task* task) {
                    "paper: five, radii doubling, 180 samples; linear: sixteen at equal distances, "
                    "90 samples [those of the folder, else linear]")
       ->check(CLI::IsMember({kPaperRings, kLinearRings}));
-  command->add_option("--skin", o->skin.model, "skin model, from `calibrate skin`");
-  command->add_option("--masks", o->skin.masks, "folder of masks of the hands, PNG by name");
+  add_skin_options(*command, &o->skin);
   command->callback([task, o] { *task = [o] { return learn(*o); }; });
 }
 

@@ -21,7 +21,8 @@
 namespace armsreach::app {
 namespace {
 
-constexpr int kOperatorWidth = 1280;  // px
+constexpr int kWearerWidth = 640;  // px, at least
+constexpr int kOperatorWidth = 1280;
 constexpr int kOperatorHeight = 720;
 
 Result<Config> read_config_file(const std::string& path) {
@@ -37,15 +38,23 @@ Pace pace_of(const RunOptions& options) {
   return options.pace == "live" ? Pace::live : Pace::every_frame;
 }
 
+// A small video is enlarged, by a whole factor, so that text has room beside what it is about.
+cv::Size picture_size(const Config& config, const Camera& camera) {
+  if (config.width) return {config.width, config.height};
+  if (config.layout == "operator") return {kOperatorWidth, kOperatorHeight};
+  const int times = (kWearerWidth + camera.width - 1) / camera.width;
+  return {times * camera.width, times * camera.height};
+}
+
 PresenterOptions presenter_options(const RunOptions& options, const Config& config,
                                    const SensorInfo& sensor) {
   PresenterOptions out;
-  const bool operator_desk = config.layout == "operator";
-  const Camera& camera = sensor.color_camera ? *sensor.color_camera : sensor.camera();
+  const cv::Size size =
+      picture_size(config, sensor.color_camera ? *sensor.color_camera : sensor.camera());
   out.display = options.display;
   out.layout = layout_from_name(config.layout);
-  out.width = config.width ? config.width : operator_desk ? kOperatorWidth : camera.width;
-  out.height = config.height ? config.height : operator_desk ? kOperatorHeight : camera.height;
+  out.width = size.width;
+  out.height = size.height;
   out.record = options.record;
   out.screenshots = options.screenshots;
   out.rate = sensor.rate;

@@ -17,17 +17,16 @@ const PlacedObject* selected(const Placement& placement) {
 }  // namespace
 
 Events HandInteraction::act(const HandCommand& command, Placement* placement,
-                            const WorldView* world, const Eigen::Vector3d& viewer_in_world,
-                            Timestamp time) const {
+                            const WorldView* world, const Viewer& viewer, Timestamp time) const {
   if (command.action == gesture::Action::select) {
     if (!command.ray_in_world) {
       if (!world || mesh_.empty()) return {};  // nobody asks where the camera is
       return {{time, FaultEvent{"interaction", "where the hand points in the map is not known",
                                 "select again once the camera is tracked"}}};
     }
-    Events events = placement->click({*command.ray_in_world, ""}, world, viewer_in_world, time);
+    Events events = placement->click({*command.ray_in_world, ""}, world, viewer, time);
     if (selected(*placement) || mesh_.empty()) return events;
-    events = placement->click({*command.ray_in_world, mesh_}, world, viewer_in_world, time);
+    events = placement->click({*command.ray_in_world, mesh_}, world, viewer, time);
     for (const Event& event : events) {
       if (const auto* inserted = std::get_if<InsertEvent>(&event.body))
         placement->select(inserted->id);

@@ -25,7 +25,7 @@ class HandInteraction {
   explicit HandInteraction(std::string mesh) : mesh_(std::move(mesh)) {}
 
   Events act(const HandCommand& command, Placement* placement, const WorldView* world,
-             const Eigen::Vector3d& viewer_in_world, Timestamp time) const;
+             const Viewer& viewer, Timestamp time) const;
 
  private:
   std::string mesh_;

@@ -13,6 +13,7 @@ namespace {
 constexpr double kReach = 10;           // m: clicks beyond are at nothing
 constexpr double kFootRadius = 0.06;    // m: what an object stands on
 constexpr double kMiddleHeight = 0.06;  // m above an object's foot
+constexpr double kLeastLevel = 0.5;     // cosine of 60 deg: what is steeper is stood on by nothing
 constexpr double kSelectRadius = 0.1;   // m: how close a click passes by an object that it means
 
 // Stands on the plane (z is its normal) and has the viewer in front (-y).
@@ -27,6 +28,10 @@ Pose standing_pose(const Eigen::Vector3d& foot, const Eigen::Vector3d& up,
   return {Eigen::Quaterniond(axes), foot};
 }
 
+bool too_steep(const Plane& plane, const Viewer& viewer) {
+  return viewer.up_in_world && plane.normal_in_world.dot(*viewer.up_in_world) < kLeastLevel;
+}
+
 FaultEvent nothing_there() {
   return {"interaction", "the click met no mapped surface",
           "look at the place for a moment so that it is mapped, then click again"};
@@ -38,18 +43,18 @@ Placement::Placement(std::vector<PlacedObject> objects) : objects_(std::move(obj
   for (const PlacedObject& object : objects_) next_id_ = std::max(next_id_, object.id + 1);
 }
 
-Events Placement::click(const Click& click, const WorldView* world,
-                        const Eigen::Vector3d& viewer_in_world, Timestamp time) {
+Events Placement::click(const Click& click, const WorldView* world, const Viewer& viewer,
+                        Timestamp time) {
   if (click.insert.empty()) {
     select(click.ray_in_world, world);
     return {};
   }
   if (!world) return {{time, nothing_there()}};
-  return insert(click, *world, viewer_in_world, time);
+  return insert(click, *world, viewer, time);
 }
 
-Events Placement::insert(const Click& click, const WorldView& world,
-                         const Eigen::Vector3d& viewer_in_world, Timestamp time) {
+Events Placement::insert(const Click& click, const WorldView& world, const Viewer& viewer,
+                         Timestamp time) {
   const auto foot = world.pick(click.ray_in_world, kReach);
   if (!foot) return {{time, nothing_there()}};
   const auto plane = world.local_plane(*foot, kFootRadius);
@@ -57,10 +62,15 @@ Events Placement::insert(const Click& click, const WorldView& world,
     return {{time, FaultEvent{"interaction", "the surface there is not flat enough to stand on",
                               "click on a flat place of about 10 cm"}}};
   }
+  if (too_steep(*plane, viewer)) {
+    return {{time, FaultEvent{"interaction", "the surface there is too steep to stand on",
+                              "click on something level: a table, a shelf, the floor"}}};
+  }
   // The click's ray meets the plane, which is finer than the voxel that was hit.
   const Eigen::Vector3d& normal = plane->normal_in_world;
   const double offset = normal.dot(*foot - plane->point_in_world);
-  const Pose world_from_object = standing_pose(*foot - offset * normal, normal, viewer_in_world);
+  const Pose world_from_object =
+      standing_pose(*foot - offset * normal, normal, viewer.point_in_world);
   objects_.push_back({next_id_++, click.insert, world.anchor(world_from_object), false});
   return {{time, InsertEvent{click.insert, objects_.back().id, world_from_object}}};
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,12 @@ namespace armsreach::app {
 struct Click {
   Ray ray_in_world;
   std::string insert;  // the mesh to stand where the ray meets the map; empty: select
+};
+
+// Who looks on.
+struct Viewer {
+  Eigen::Vector3d point_in_world;                // what is inserted faces it
+  std::optional<Eigen::Vector3d> up_in_world{};  // unit, against gravity; nothing: not known
 };
 
 struct PlacedObject {
@@ -29,9 +36,8 @@ class Placement {
   // Goes on with objects placed before.
   explicit Placement(std::vector<PlacedObject> objects);
 
-  // `world` may be null while nothing is mapped. `viewer_in_world` is what the object faces.
-  Events click(const Click& click, const WorldView* world, const Eigen::Vector3d& viewer_in_world,
-               Timestamp time);
+  // `world` may be null while nothing is mapped. Nothing is stood on what is steep.
+  Events click(const Click& click, const WorldView* world, const Viewer& viewer, Timestamp time);
   void select(std::int64_t id);  // this one and no other; 0: none
   Events remove_selected(const WorldView* world, Timestamp time);
 
@@ -40,8 +46,7 @@ class Placement {
   static Pose world_from_object(const PlacedObject& object, const WorldView* world);
 
  private:
-  Events insert(const Click& click, const WorldView& world, const Eigen::Vector3d& viewer_in_world,
-                Timestamp time);
+  Events insert(const Click& click, const WorldView& world, const Viewer& viewer, Timestamp time);
   void select(const Ray& ray, const WorldView* world);
 
   std::vector<PlacedObject> objects_;

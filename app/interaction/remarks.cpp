@@ -43,6 +43,12 @@ struct BodyToSentence {
   std::optional<Sentence> operator()(const DeleteEvent& e) const {
     return Sentence{object(e.id), e.object + " deleted."};
   }
+  std::optional<Sentence> operator()(const AcceptEvent& e) const {
+    return Sentence{object(e.anchor), "Accepted."};
+  }
+  std::optional<Sentence> operator()(const RejectEvent& e) const {
+    return Sentence{object(e.anchor), "Rejected."};
+  }
   std::optional<Sentence> operator()(const GestureEvent& e) const {
     Sentence sentence{"hand " + std::to_string(e.hand), e.name.empty() ? "" : e.name + "."};
     sentence.lasting = kGestureLasts;

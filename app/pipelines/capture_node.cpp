@@ -73,7 +73,8 @@ FramePtr CaptureNode::next_frame() {
 }
 
 void CaptureNode::report_source_events() {
-  for (const Event& event : rig_.take_events()) log_.write(event);
+  // Devices know only their own clock.
+  for (const Event& event : rig_.take_events()) log_.write({log_.now(), event.body});
 }
 
 void CaptureNode::wait_until_due(Timestamp time) {

@@ -8,6 +8,7 @@
 #include "app/pipelines/background.hpp"
 #include "app/pipelines/hands_scene.hpp"
 #include "app/pipelines/mono_scene.hpp"
+#include "render/room.hpp"
 #include "vision/core/pyramid.hpp"
 #include "vision/core/registration.hpp"
 
@@ -33,12 +34,9 @@ render::Severity severity_of(const Event& event) {
                                                         : render::Severity::info;
 }
 
-// What is worth a line of text; the rest is shown where it happens, and what is said is about an
-// event that is shown itself.
+// What is worth a line of text; the rest is shown where it happens, the tracking's state as such,
+// and what is said is about an event that is shown itself.
 struct BodyToText {
-  std::string operator()(const TrackingEvent& e) const {
-    return std::string(armsreach::name(e.state));
-  }
   std::string operator()(const InsertEvent& e) const { return e.object + " inserted"; }
   std::string operator()(const MoveEvent& e) const { return e.object + " moved"; }
   std::string operator()(const DeleteEvent& e) const { return e.object + " deleted"; }
@@ -53,6 +51,10 @@ struct BodyToText {
     return "";
   }
 };
+
+Viewer viewer_of(const TrackedFrame& tracked, const render::Scene& scene) {
+  return {tracked.world_from_camera.translation(), render::known_up(scene)};
+}
 
 }  // namespace
 
@@ -83,15 +85,14 @@ ComposedPtr Composer::process(const ComposeInput& input) {
     registration_ = input.registration;
     if (registration_->fault) tell({tracked.frame->time, *registration_->fault});
   }
-  for (const HandNews& news : std::exchange(news_, {})) apply(news, world, tracked);
-  apply(std::exchange(pending_, {}), world, tracked);
-  composed->events = events_;
-  composed->events_before = events_told_ - static_cast<std::int64_t>(events_.size());
-
   auto scene = std::make_shared<render::Scene>();
   add_video(tracked, scene.get());
   add_tracking(tracked, scene.get());
   if (input.map) scene->surface = input.map->surface;
+  for (const HandNews& news : std::exchange(news_, {})) apply(news, world, tracked, *scene);
+  apply(std::exchange(pending_, {}), world, tracked, *scene);
+  composed->events = events_;
+  composed->events_before = events_told_ - static_cast<std::int64_t>(events_.size());
   if (tracked.mono) add_sparse_map(tracked, scene.get());
   add_objects(world, scene.get());
   if (input.hands) add_hands(*input.hands, scene.get());
@@ -155,35 +156,31 @@ void Composer::add_objects(const WorldView* world, render::Scene* scene) {
 }
 
 void Composer::add_messages(Timestamp now, render::Scene* scene) {
-  const auto events = log_.recent();
-  const auto is_tracking = [](const Event& event) {
-    return std::holds_alternative<TrackingEvent>(event.body);
-  };
-  // How the tracking was before it changed is no news.
-  const auto last = std::find_if(events.rbegin(), events.rend(), is_tracking);
-  for (const Event& event : events) {
+  for (const Event& event : log_.recent()) {
     if (now - event.time > kMessageTime) continue;
-    if (is_tracking(event) && &event != &*last) continue;
     const std::string text = std::visit(BodyToText{}, event.body);
     if (!text.empty()) scene->messages.push_back({severity_of(event), text});
   }
 }
 
-void Composer::apply(const HandNews& news, const WorldView* world, const TrackedFrame& tracked) {
+void Composer::apply(const HandNews& news, const WorldView* world, const TrackedFrame& tracked,
+                     const render::Scene& scene) {
   for (const Event& event : news.events) tell(event);
-  const Eigen::Vector3d& viewer = tracked.world_from_camera.translation();
+  if (news.commands.empty()) return;
+  const Viewer viewer = viewer_of(tracked, scene);
   for (const HandCommand& command : news.commands) {
     for (Event& event : hands_.act(command, &placement_, world, viewer, tracked.frame->time))
       tell(std::move(event));
   }
 }
 
-void Composer::apply(const UserInput& user, const WorldView* world, const TrackedFrame& tracked) {
+void Composer::apply(const UserInput& user, const WorldView* world, const TrackedFrame& tracked,
+                     const render::Scene& scene) {
   const Timestamp time = tracked.frame->time;
-  const Eigen::Vector3d& viewer = tracked.world_from_camera.translation();
   for (const FaultEvent& fault : user.faults) tell({time, fault});
   for (const Click& click : user.clicks) {
-    for (Event& event : placement_.click(click, world, viewer, time)) tell(std::move(event));
+    for (Event& event : placement_.click(click, world, viewer_of(tracked, scene), time))
+      tell(std::move(event));
   }
   if (!user.delete_selected) return;
   for (Event& event : placement_.remove_selected(world, time)) tell(std::move(event));

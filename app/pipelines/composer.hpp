@@ -65,8 +65,10 @@ class Composer final : public Stage<ComposeInput, ComposedPtr> {
   void add_tracking(const TrackedFrame& tracked, render::Scene* scene);
   void add_objects(const WorldView* world, render::Scene* scene);
   void add_messages(Timestamp now, render::Scene* scene);
-  void apply(const HandNews& news, const WorldView* world, const TrackedFrame& tracked);
-  void apply(const UserInput& user, const WorldView* world, const TrackedFrame& tracked);
+  void apply(const HandNews& news, const WorldView* world, const TrackedFrame& tracked,
+             const render::Scene& scene);
+  void apply(const UserInput& user, const WorldView* world, const TrackedFrame& tracked,
+             const render::Scene& scene);
   void tell(Event event);
   void measure_rate(std::int64_t arrival);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vision/gesture/pointing.hpp"
+
 namespace armsreach::app {
 namespace {
 
@@ -49,7 +51,8 @@ render::Hand scene_hand(const gesture::Hand& hand, const std::vector<double>& ri
   out.angle = static_cast<float>(hand.seen.angle);
   out.gesture = hand.gesture;
   out.score = static_cast<float>(hand.score);
-  out.grasping = hand.direction.has_value();
+  out.tip = (hand.cursor ? hand.seen.fingertip : hand.seen.center).cast<float>();
+  if (hand.direction) out.wedge = static_cast<float>(gesture::Wedge().half_angle);
   for (const double radius : rings) out.rings.push_back(static_cast<float>(radius) * out.size);
   return out;
 }

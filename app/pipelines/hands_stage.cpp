@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/pipelines/background.hpp"
+#include "vision/gesture/has_color.hpp"
 #include "vision/gesture/pointing.hpp"
 
 namespace armsreach::app {
@@ -13,24 +14,10 @@ namespace {
 
 constexpr double kPointedWindow = 0.25;  // s over which a thing must be what is mostly pointed at
 constexpr double kCursorReach = 0.3;     // sizes of the hand between a cursor and what it means
-constexpr int kSampleStep = 16;          // px between the pixels that are looked at for colour
-constexpr int kGreyLevels = 4;           // by which the channels of a grey image may differ
-
-bool has_color(const cv::Mat& image) {
-  if (image.type() != CV_8UC3) return false;
-  for (int y = 0; y < image.rows; y += kSampleStep) {
-    const auto* row = image.ptr<cv::Vec3b>(y);
-    for (int x = 0; x < image.cols; x += kSampleStep) {
-      const auto [low, high] = std::minmax({row[x][0], row[x][1], row[x][2]});
-      if (high - low > kGreyLevels) return true;
-    }
-  }
-  return false;
-}
 
 FaultEvent no_color() {
-  return {"hands", "the images have no colour, so no hands can be found",
-          "switch the camera to colour, or leave 'wearable' out of --experience"};
+  return {"hands", "hands need a colour camera, and these images are grey",
+          "take a colour camera, or switch this one to colour; all else goes on without hands"};
 }
 
 double size_of(const gesture::Hand& hand) { return std::sqrt(std::max(hand.seen.area, 1.0)); }
@@ -77,7 +64,7 @@ HandsOutput HandsStage::process(const TrackedFramePtr& tracked) {
   const Frame& frame = *tracked->frame;
   auto state = std::make_shared<HandsState>();
   state->rings = detectors_.rings;
-  const bool colorless = !has_color(frame.color);
+  const bool colorless = !gesture::has_color(frame.color);
   if (std::exchange(colorless_, colorless) != colorless && colorless)
     out.news.events.push_back({frame.time, no_color()});
 

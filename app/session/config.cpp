@@ -1,29 +1,26 @@
 #include "app/session/config.hpp"
 
 #include <cmath>
-#include <optional>
 #include <set>
 
-#include <yaml-cpp/yaml.h>
-
-#include "app/session/yaml_section.hpp"
+#include "vision/core/yaml_map.hpp"
 
 namespace armsreach::app {
 namespace {
 
-void read_pair(YamlSection& section, const std::string& key, double* first, double* second) {
-  const YAML::Node node = section.child(key);
+void read_pair(YamlMap& section, const std::string& key, double* first, double* second) {
+  const YAML::Node node = section.find(key);
   if (!node) return;
   if (!node.IsSequence() || node.size() != 2 || !YAML::convert<double>::decode(node[0], *first) ||
       !YAML::convert<double>::decode(node[1], *second) || !std::isfinite(*first) ||
       !std::isfinite(*second)) {
-    section.complain("'" + section.path() + key + "' must be two numbers, [x, y]");
+    throw section.complaint(key, "must be two numbers, [x, y]");
   }
 }
 
 bool is_layout(const std::string& name) { return name == "wearer" || name == "operator"; }
 
-Action read_action(YamlSection section) {
+Action read_action(YamlMap section) {
   Action action;
   section.read<std::int64_t>("frame", &action.frame, "a frame number, 0 or more",
                              [](const std::int64_t& n) { return n >= 0; });
@@ -34,10 +31,10 @@ Action read_action(YamlSection section) {
       });
   section.read<std::string>("insert", &action.insert, "the name of a mesh");
   section.read<std::string>("layout", &action.layout, "wearer or operator", is_layout);
-  if (!section.child("click") && action.layout.empty()) {
-    section.complain("'" + section.path() + "' has neither click nor layout");
+  if (!section.find("click") && action.layout.empty()) {
+    throw section.complaint("", "has neither click nor layout");
   }
-  section.refuse_unknown();
+  section.refuse_others();
   return action;
 }
 
@@ -45,7 +42,7 @@ bool is_one_of(const std::string& text, const std::set<std::string>& names) {
   return names.count(text) > 0;
 }
 
-void read_tracking(YamlSection section, TrackingConfig* tracking) {
+void read_tracking(YamlMap section, TrackingConfig* tracking) {
   section.read<std::string>("method", &tracking->method, "auto, dense, mono or none",
                             [](const std::string& m) {
                               return is_one_of(m, {"auto", "dense", "mono", "none"});
@@ -56,10 +53,10 @@ void read_tracking(YamlSection section, TrackingConfig* tracking) {
                     [](const int& n) { return n >= 1 && n <= 100; });
   section.read<int>("width", &tracking->width, "80 or 160 pixels",
                     [](const int& w) { return w == 80 || w == 160; });
-  section.refuse_unknown();
+  section.refuse_others();
 }
 
-void read_mono_slam(YamlSection section, MonoSlamConfig* mono) {
+void read_mono_slam(YamlMap section, MonoSlamConfig* mono) {
   section.read<std::string>("target", &mono->target, "a file of a start target",
                             [](const std::string& file) { return !file.empty(); });
   section.read<double>("stated_distance", &mono->stated_distance, "between 0.05 and 100 metres",
@@ -77,29 +74,29 @@ void read_mono_slam(YamlSection section, MonoSlamConfig* mono) {
                     [](const int& n) { return n >= 1; });
   if (frame > 0) mono->forget_start_target_at = frame;
   if (mono->visible_points > mono->most_points)
-    section.complain("'" + section.path() + "visible_points' must not exceed most_points");
-  section.refuse_unknown();
+    throw section.complaint("visible_points", "must not exceed most_points");
+  section.refuse_others();
 }
 
-void read_mapping(YamlSection section, MappingConfig* mapping) {
+void read_mapping(YamlMap section, MappingConfig* mapping) {
   section.read<bool>("enabled", &mapping->enabled, "true or false");
   section.read<double>("resolution", &mapping->resolution, "between 0.002 and 0.2 metres",
                        [](const double& r) { return r >= 0.002 && r <= 0.2; });
-  section.refuse_unknown();
+  section.refuse_others();
 }
 
 bool is_filled(const std::string& text) { return !text.empty(); }
 
-void read_cursor_filter(YamlSection section, CursorFilterConfig* filter) {
+void read_cursor_filter(YamlMap section, CursorFilterConfig* filter) {
   section.read<bool>("enabled", &filter->enabled, "true or false");
   section.read<double>("min_cutoff", &filter->min_cutoff, "between 0.01 and 100 Hz",
                        [](const double& f) { return f >= 0.01 && f <= 100; });
   section.read<double>("beta", &filter->beta, "between 0 and 100",
                        [](const double& b) { return b >= 0 && b <= 100; });
-  section.refuse_unknown();
+  section.refuse_others();
 }
 
-void read_gesture(YamlSection section, GestureConfig* gesture) {
+void read_gesture(YamlMap section, GestureConfig* gesture) {
   section.read<std::string>("vocabulary", &gesture->vocabulary, "the name of a vocabulary",
                             is_filled);
   section.read<std::string>("templates", &gesture->templates, "a folder of templates", is_filled);
@@ -112,7 +109,7 @@ void read_gesture(YamlSection section, GestureConfig* gesture) {
                        [](const double& r) { return r >= 0.1 && r <= 10; });
   section.read<std::string>("insert", &gesture->insert, "the name of a mesh, or ''");
   read_cursor_filter(section.section("cursor_filter"), &gesture->cursor_filter);
-  section.refuse_unknown();
+  section.refuse_others();
 }
 
 bool has_prefix(const std::string& text, const std::string& prefix) {
@@ -128,8 +125,8 @@ bool is_seen_target(const std::string& target) {
   return is_one_of(target, {"hand", "hands", "grasp"}) || has_prefix(target, "colour:");
 }
 
-void read_gaze_target(YamlSection& section, GazeConfig* gaze) {
-  const YAML::Node node = section.child("target");
+void read_gaze_target(YamlMap& section, GazeConfig* gaze) {
+  const YAML::Node node = section.find("target");
   if (!node) return;
   std::vector<double> point;
   if (node.IsSequence() && YAML::convert<std::vector<double>>::decode(node, point) &&
@@ -142,12 +139,12 @@ void read_gaze_target(YamlSection& section, GazeConfig* gaze) {
         has_number(gaze->target, "object:"))
       return;
   }
-  section.complain("'" + section.path() +
-                   "target' must be hand, hands, grasp, colour:NAME, point:ID, object:ID or a "
-                   "point in the world, [x, y, z]");
+  throw section.complaint("target",
+                          "must be hand, hands, grasp, colour:NAME, point:ID, object:ID or a "
+                          "point in the world, [x, y, z]");
 }
 
-void read_gaze(YamlSection section, GazeConfig* gaze) {
+void read_gaze(YamlMap section, GazeConfig* gaze) {
   section.read<std::string>("mode", &gaze->mode, "auto, follow, saccade, fixate or rest",
                             [](const std::string& m) {
                               return is_one_of(m, {"auto", "follow", "saccade", "fixate", "rest"});
@@ -155,76 +152,64 @@ void read_gaze(YamlSection section, GazeConfig* gaze) {
   read_gaze_target(section, gaze);
   const bool follows = gaze->mode == "auto" || gaze->mode == "follow";
   if (follows && (gaze->point_in_world || !is_seen_target(gaze->target)))
-    section.complain("'" + section.path() + "mode' must be saccade or fixate for a point");
-  section.refuse_unknown();
+    throw section.complaint("mode", "must be saccade or fixate for a point");
+  section.refuse_others();
 }
 
-void read_show(YamlSection section, ShowConfig* show) {
+void read_show(YamlMap section, ShowConfig* show) {
   section.read<bool>("rings", &show->rings, "true or false");
-  section.refuse_unknown();
+  section.refuse_others();
 }
 
-void read_speech(YamlSection section, SpeechConfig* speech) {
+void read_speech(YamlMap section, SpeechConfig* speech) {
   section.read<std::string>("voice", &speech->voice, "auto, off or the name of a .wav file",
                             [](const std::string& voice) {
                               return voice == "auto" || voice == "off" ||
                                      (voice.size() > 4 && voice.ends_with(".wav"));
                             });
-  section.refuse_unknown();
+  section.refuse_others();
 }
 
-void read_size(YamlSection& root, Config* config) {
-  if (!root.child("size")) return;
+void read_size(YamlMap& root, Config* config) {
+  if (!root.find("size")) return;
   double width = 0;
   double height = 0;
   read_pair(root, "size", &width, &height);
   const auto is_side = [](double side) {
     return side >= 64 && side <= 7680 && side == std::floor(side);
   };
-  if (!is_side(width) || !is_side(height)) {
-    root.complain("'size' must be two whole numbers of pixels from 64 to 7680");
-    return;
-  }
+  if (!is_side(width) || !is_side(height))
+    throw root.complaint("size", "must be two whole numbers of pixels from 64 to 7680");
   config->width = static_cast<int>(width);
   config->height = static_cast<int>(height);
 }
 
-void read_root(YamlSection root, Config* config) {
-  root.read<std::string>("layout", &config->layout, "wearer or operator", is_layout);
-  read_size(root, config);
-  root.read<bool>("threads", &config->threads, "true or false");
-  root.read<int>("lag", &config->lag, "between 1 and 30 frames",
+Config config_from(const YAML::Node& node) {
+  YamlMap root(node, "");
+  Config config;
+  root.read<std::string>("layout", &config.layout, "wearer or operator", is_layout);
+  read_size(root, &config);
+  root.read<bool>("threads", &config.threads, "true or false");
+  root.read<int>("lag", &config.lag, "between 1 and 30 frames",
                  [](const int& n) { return n >= 1 && n <= 30; });
-  read_tracking(root.section("tracking"), &config->tracking);
-  read_mono_slam(root.section("mono_slam"), &config->mono_slam);
-  read_mapping(root.section("mapping"), &config->mapping);
-  read_gesture(root.section("gesture"), &config->gesture);
-  read_gaze(root.section("gaze"), &config->gaze);
-  read_show(root.section("show"), &config->show);
-  read_speech(root.section("speech"), &config->speech);
-  const YAML::Node actions = root.child("actions");
-  if (actions && !actions.IsSequence()) root.complain("'actions' must be a list");
-  if (actions && actions.IsSequence()) {
-    for (size_t i = 0; i < actions.size(); ++i) {
-      config->actions.push_back(read_action(root.item(actions[i], "actions", i)));
-    }
+  read_tracking(root.section("tracking"), &config.tracking);
+  read_mono_slam(root.section("mono_slam"), &config.mono_slam);
+  read_mapping(root.section("mapping"), &config.mapping);
+  read_gesture(root.section("gesture"), &config.gesture);
+  read_gaze(root.section("gaze"), &config.gaze);
+  read_show(root.section("show"), &config.show);
+  read_speech(root.section("speech"), &config.speech);
+  if (root.find("actions")) {
+    for (const YamlMap& entry : root.items("actions")) config.actions.push_back(read_action(entry));
   }
-  root.refuse_unknown();
+  root.refuse_others();
+  return config;
 }
 
 }  // namespace
 
 Result<Config> read_config(std::istream& in, const std::string& where) {
-  Config config;
-  std::optional<Error> error;
-  try {
-    read_root(YamlSection(YAML::Load(in), "", &error, where), &config);
-  } catch (const YAML::Exception& e) {
-    return Error{"not readable as YAML: " + std::string(e.what()), where,
-                 "see 'Configuration' in the README"};
-  }
-  if (error) return *error;
-  return config;
+  return read_yaml(in, where, "see 'Configuration' in the README", config_from);
 }
 
 }  // namespace armsreach::app

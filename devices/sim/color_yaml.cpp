@@ -1,6 +1,6 @@
 #include "devices/sim/color_yaml.hpp"
 
-#include "devices/sim/yaml_map.hpp"
+#include "vision/core/yaml_map.hpp"
 
 namespace armsreach::sim {
 

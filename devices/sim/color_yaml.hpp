@@ -16,7 +16,7 @@ class Node;
 
 namespace armsreach::sim {
 
-// For readers of world files: throws Complaint (yaml_map.hpp).
+// For readers of world files: throws YamlComplaint.
 ColorDescription color_sensor_from(const YAML::Node& node, const std::string& name);
 
 }  // namespace armsreach::sim

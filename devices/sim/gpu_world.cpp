@@ -13,15 +13,11 @@ GpuWorld::GpuWorld(const render::Gl& gl, const WorldMesh& mesh)
   gl.BufferData(GL_ELEMENT_ARRAY_BUFFER,
                 static_cast<GLsizeiptr>(mesh.indices.size() * sizeof(std::uint32_t)),
                 mesh.indices.data(), GL_STATIC_DRAW);
-  const auto attribute = [&gl](GLuint location, GLint size, std::size_t offset) {
-    gl.EnableVertexAttribArray(location);
-    gl.VertexAttribPointer(location, size, GL_FLOAT, GL_FALSE, sizeof(WorldVertex),
-                           reinterpret_cast<const void*>(offset));
-  };
-  attribute(0, 3, offsetof(WorldVertex, position));
-  attribute(1, 3, offsetof(WorldVertex, normal));
-  attribute(2, 2, offsetof(WorldVertex, texture));
-  attribute(3, 2, offsetof(WorldVertex, light));
+  render::describe_vertices(gl, sizeof(WorldVertex),
+                            {{3, GL_FLOAT, false, offsetof(WorldVertex, position)},
+                             {3, GL_FLOAT, false, offsetof(WorldVertex, normal)},
+                             {2, GL_FLOAT, false, offsetof(WorldVertex, texture)},
+                             {2, GL_FLOAT, false, offsetof(WorldVertex, light)}});
 }
 
 void GpuWorld::draw(std::size_t part) const {

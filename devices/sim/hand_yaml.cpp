@@ -2,10 +2,6 @@
 
 #include <numbers>
 
-#include <yaml-cpp/yaml.h>
-
-#include "devices/sim/yaml_map.hpp"
-
 namespace armsreach::sim {
 namespace {
 
@@ -16,7 +12,7 @@ bool is_second(YamlMap& map, const std::string& key, const std::string& first,
                const std::string& second) {
   const std::string word = map.text(key);
   if (word != first && word != second)
-    throw Complaint{"'" + map.path(key) + "' is neither " + first + " nor " + second};
+    throw map.complaint(key, "is neither " + first + " nor " + second);
   return word == second;
 }
 
@@ -27,7 +23,7 @@ Gesture gesture_from(YamlMap& map) {
   std::string names;
   for (int i = 0; i < kGestureCount; ++i)
     names += (i ? ", " : "") + std::string(name(static_cast<Gesture>(i)));
-  throw Complaint{"'" + map.path("pose") + "': there is no '" + pose + "' among " + names};
+  throw map.complaint("pose", "cannot be: there is no '" + pose + "' among " + names);
 }
 
 HandKey key_from(YamlMap map) {
@@ -60,56 +56,49 @@ HandDescription hand_from(YamlMap map) {
   if (map.find("skin")) {
     const std::string skin = map.text("skin");
     const auto tone = skin_tone_named(skin);
-    if (!tone) throw Complaint{"'" + map.path("skin") + "': there is no skin '" + skin + "'"};
+    if (!tone) throw map.complaint("skin", "cannot be: there is no skin '" + skin + "'");
     hand.skin = *tone;
   }
   if (map.find("shoulder")) hand.shoulder = map.vector<3>("shoulder");
   hand.sleeve = static_cast<bool>(map.find("sleeve"));
   if (hand.sleeve) hand.sleeve_color = map.color("sleeve");
-  const YAML::Node keys = map.need("keys");
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    const HandKey key = key_from({keys[i], map.path("keys[" + std::to_string(i) + "]")});
+  for (const YamlMap& entry : map.items("keys")) {
+    const HandKey key = key_from(entry);
     if (!hand.keys.empty() && key.time <= hand.keys.back().time)
-      throw Complaint{"the times of '" + map.path("keys") + "' do not increase"};
+      throw entry.complaint("the times of '" + map.path("keys") + "' do not increase");
     hand.keys.push_back(key);
   }
-  if (hand.keys.empty()) throw Complaint{"'" + map.path("keys") + "' is empty"};
+  if (hand.keys.empty()) throw map.complaint("keys", "is empty");
   hand.repeat = map.number("repeat", 0, 1e6, 0);
   if (hand.repeat > 0 && hand.repeat < hand.keys.back().time)
-    throw Complaint{"'" + map.path("repeat") + "' comes before the last of its keys"};
+    throw map.complaint("repeat", "comes before the last of its keys");
   map.refuse_others();
   return hand;
 }
 
 }  // namespace
 
-std::vector<HandDescription> hands_from(const YAML::Node& list, const std::string& name) {
-  if (!list.IsSequence()) throw Complaint{"'" + name + "' is not a list"};
-  if (list.size() == 0) throw Complaint{"'" + name + "' is empty: leave it out for no hands"};
+std::vector<HandDescription> hands_from(YamlMap& map) {
   std::vector<HandDescription> hands;
-  for (std::size_t i = 0; i < list.size(); ++i)
-    hands.push_back(hand_from({list[i], name + "[" + std::to_string(i) + "]"}));
+  for (const YamlMap& entry : map.items("hands")) hands.push_back(hand_from(entry));
+  if (hands.empty()) throw map.complaint("hands", "is empty: leave it out for no hands");
   return hands;
 }
 
 Result<std::vector<HandDescription>> read_hand_script(std::istream& in, const std::string& where) {
   const std::string remedy = "assets/hands/gestures.yaml shows what a script can have";
-  try {
-    YamlMap map(YAML::Load(in), "");
-    std::vector<HandDescription> hands = hands_from(map.need("hands"), "hands");
+  return read_yaml(in, where, remedy, [](const YAML::Node& root) {
+    YamlMap map(root, "");
+    std::vector<HandDescription> hands = hands_from(map);
     map.refuse_others();
     for (const HandDescription& hand : hands) {
       for (const HandKey& key : hand.keys) {
         if (!key.on.empty() || !key.hold.empty())
-          throw Complaint{"'on' and 'hold' need a world, whose things are known"};
+          throw map.complaint("'on' and 'hold' need a world, whose things are known");
       }
     }
     return hands;
-  } catch (const Complaint& complaint) {
-    return Error{complaint.what, where, remedy};
-  } catch (const YAML::Exception& e) {
-    return Error{"not readable as YAML: " + std::string(e.what()), where, remedy};
-  }
+  });
 }
 
 }  // namespace armsreach::sim

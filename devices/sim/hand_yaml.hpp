@@ -17,15 +17,12 @@
 
 #include "devices/sim/hand/hand_script.hpp"
 #include "vision/core/result.hpp"
-
-namespace YAML {
-class Node;
-}
+#include "vision/core/yaml_map.hpp"
 
 namespace armsreach::sim {
 
-// For readers of files that have hands among other things: throws Complaint (yaml_map.hpp).
-std::vector<HandDescription> hands_from(const YAML::Node& list, const std::string& name);
+// For readers of files that have `hands` among other things: throws YamlComplaint.
+std::vector<HandDescription> hands_from(YamlMap& map);
 
 // `where` names the stream in errors.
 Result<std::vector<HandDescription>> read_hand_script(std::istream& in, const std::string& where);

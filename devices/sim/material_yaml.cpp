@@ -24,13 +24,13 @@ void add_pattern(YamlMap& map, Material& material) {
   const auto known = std::find_if(kPatterns.begin(), kPatterns.end(),
                                   [&](const PatternName& p) { return pattern == p.name; });
   if (known == kPatterns.end())
-    throw Complaint{"'" + map.path("pattern") + "': there is no pattern '" + pattern + "'"};
+    throw map.complaint("pattern", "cannot be: there is no pattern '" + pattern + "'");
   material.pattern = known->pattern;
   for (const YAML::Node& color : map.need("colors"))
     material.colors.push_back(color_from(color, map.path("colors")));
   if (material.colors.size() < known->colors)
-    throw Complaint{"'" + map.path("colors") + "' has fewer than the " +
-                    std::to_string(known->colors) + " that '" + pattern + "' needs"};
+    throw map.complaint("colors", "has fewer than the " + std::to_string(known->colors) +
+                                      " that '" + pattern + "' needs");
 }
 
 }  // namespace

@@ -7,6 +7,27 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 
+template <class Key>
+void check_time(const YamlMap& map, const std::vector<Key>& keys, double time) {
+  if (keys.empty() ? time != 0 : time <= keys.back().time)
+    throw map.complaint("the times of '" + map.path("keys") + "' do not increase from 0");
+}
+
+std::vector<PathKey> path_keys(YamlMap& map, double duration) {
+  std::vector<PathKey> keys;
+  for (YamlMap& entry : map.items("keys")) {
+    PathKey key;
+    key.time = entry.number("time", 0, duration);
+    key.eye = entry.vector<3>("eye");
+    key.target = entry.vector<3>("target");
+    key.roll = kRadians * entry.number("roll_deg", -180, 180, 0);
+    entry.refuse_others();
+    check_time(map, keys, key.time);
+    keys.push_back(key);
+  }
+  return keys;
+}
+
 }  // namespace
 
 PathDescription path_from(YamlMap map) {
@@ -17,21 +38,9 @@ PathDescription path_from(YamlMap map) {
   path.tremor.sway_angle = kRadians * map.number("sway_deg", 0, 10, 0);
   path.tremor.shake = map.number("shake", 0, 0.1, 0);
   path.tremor.shake_angle = kRadians * map.number("shake_deg", 0, 10, 0);
-  const YAML::Node keys = map.find("keys");
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    YamlMap entry(keys[i], map.path("keys[" + std::to_string(i) + "]"));
-    PathKey key;
-    key.time = entry.number("time", 0, path.duration);
-    key.eye = entry.vector<3>("eye");
-    key.target = entry.vector<3>("target");
-    key.roll = kRadians * entry.number("roll_deg", -180, 180, 0);
-    entry.refuse_others();
-    const bool in_order = i == 0 ? key.time == 0 : key.time > path.keys.back().time;
-    if (!in_order) throw Complaint{"the times of 'path.keys' do not increase from 0"};
-    path.keys.push_back(key);
-  }
+  if (map.find("keys")) path.keys = path_keys(map, path.duration);
   if (path.closed && !path.keys.empty() && path.keys.back().time >= path.duration)
-    throw Complaint{"a closed path needs time after its last key to come back to the first"};
+    throw map.complaint("a closed path needs time after its last key to come back to the first");
   map.refuse_others();
   return path;
 }
@@ -40,9 +49,7 @@ WearerDescription wearer_from(YamlMap map) {
   WearerDescription wearer;
   wearer.height = map.number("height", 0.5, 2.5);
   wearer.sway = map.number("sway", 0, 0.1, wearer.sway);
-  const YAML::Node keys = map.need("keys");
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    YamlMap entry(keys[i], map.path("keys[" + std::to_string(i) + "]"));
+  for (YamlMap& entry : map.items("keys")) {
     WearerKey key;
     key.time = entry.number("time", 0, 3600);
     key.stand = entry.vector<2>("stand");
@@ -50,11 +57,10 @@ WearerDescription wearer_from(YamlMap map) {
     key.look = entry.vector<3>("look");
     key.reach = entry.number("reach", 0, 1, 0);
     entry.refuse_others();
-    const bool in_order = i == 0 ? key.time == 0 : key.time > wearer.keys.back().time;
-    if (!in_order) throw Complaint{"the times of 'wearer.keys' do not increase from 0"};
+    check_time(map, wearer.keys, key.time);
     wearer.keys.push_back(key);
   }
-  if (wearer.keys.empty()) throw Complaint{"'wearer.keys' is empty"};
+  if (wearer.keys.empty()) throw map.complaint("keys", "is empty");
   map.refuse_others();
   return wearer;
 }

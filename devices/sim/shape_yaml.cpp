@@ -3,28 +3,27 @@
 namespace armsreach::sim {
 namespace {
 
-Lathe lathe_from(const YAML::Node& node, const std::string& name) {
+Lathe lathe_from(YamlMap& map) {
   Lathe lathe;
-  for (const YAML::Node& point : node) {
-    const std::vector<double> values = numbers_from(point, name);
+  for (const YAML::Node& point : map.need("lathe")) {
+    const std::vector<double> values = numbers_from(point, map.path("lathe"));
     if (values.size() != 2 || values[0] < 0)
-      throw Complaint{"'" + name + "' has a point that is not [radius, z]"};
+      throw map.complaint("lathe", "has a point that is not [radius, z]");
     lathe.profile.emplace_back(values[0], values[1]);
   }
-  if (lathe.profile.size() < 2) throw Complaint{"'" + name + "' has fewer than two points"};
+  if (lathe.profile.size() < 2) throw map.complaint("lathe", "has fewer than two points");
   return lathe;
 }
 
 Mug mug_from(YamlMap& map) {
   const Eigen::Vector3d size = map.lengths<3>("mug");
-  if (size[2] >= size[0] / 2) throw Complaint{"'" + map.path("mug") + "' is all wall"};
+  if (size[2] >= size[0] / 2) throw map.complaint("mug", "is all wall");
   return {size[0], size[1], size[2]};
 }
 
 Capsule capsule_from(YamlMap& map) {
   const Eigen::Vector2d size = map.lengths<2>("capsule");
-  if (size[1] <= 2 * size[0])
-    throw Complaint{"'" + map.path("capsule") + "' is not longer than its two ends"};
+  if (size[1] <= 2 * size[0]) throw map.complaint("capsule", "is not longer than its two ends");
   return {size[0], size[1]};
 }
 
@@ -36,16 +35,15 @@ TaperedBox tapered_from(YamlMap& map) {
 Slab slab_from(YamlMap map) {
   Slab slab;
   slab.thickness = map.number("thickness", 1e-4, 10);
-  const std::string name = map.path("outline");
   for (const YAML::Node& station : map.need("outline")) {
-    const std::vector<double> values = numbers_from(station, name);
+    const std::vector<double> values = numbers_from(station, map.path("outline"));
     const bool good = values.size() == 3 && values[1] <= values[2] &&
                       (slab.stations.empty() || values[0] > slab.stations.back().x);
     if (!good)
-      throw Complaint{"'" + name + "' has a station that is not [x, low, high] with increasing x"};
+      throw map.complaint("outline", "has a station that is not [x, low, high] with increasing x");
     slab.stations.push_back({values[0], values[1], values[2]});
   }
-  if (slab.stations.size() < 2) throw Complaint{"'" + name + "' has fewer than two stations"};
+  if (slab.stations.size() < 2) throw map.complaint("outline", "has fewer than two stations");
   map.refuse_others();
   return slab;
 }
@@ -63,16 +61,13 @@ Shape shape_from(YamlMap& map) {
   if (map.find("mug")) shapes.push_back(mug_from(map));
   if (map.find("capsule")) shapes.push_back(capsule_from(map));
   if (map.find("tapered")) shapes.push_back(tapered_from(map));
-  if (const YAML::Node node = map.find("lathe"))
-    shapes.push_back(lathe_from(node, map.path("lathe")));
-  if (const YAML::Node node = map.find("slab"))
-    shapes.push_back(slab_from({node, map.path("slab")}));
+  if (map.find("lathe")) shapes.push_back(lathe_from(map));
+  if (map.find("slab")) shapes.push_back(slab_from(map.section("slab")));
   if (map.find("mesh"))
     shapes.push_back(Mesh{map.text("mesh"), map.number("scale", 1e-6, 1e6, 1), nullptr, {}});
   if (shapes.size() != 1)
-    throw Complaint{
-        "'" + map.path("") +
-        "' needs one shape: box, cylinder, panel, mug, lathe, capsule, tapered, slab or mesh"};
+    throw map.complaint(
+        "", "needs one shape: box, cylinder, panel, mug, lathe, capsule, tapered, slab or mesh");
   return shapes.front();
 }
 

@@ -15,7 +15,7 @@ int material_index(YamlMap& map, const std::vector<Material>& materials) {
   const auto material = std::find_if(materials.begin(), materials.end(),
                                      [&](const Material& m) { return m.name == wanted; });
   if (material == materials.end())
-    throw Complaint{"'" + map.path("material") + "': there is no material '" + wanted + "'"};
+    throw map.complaint("material", "cannot be: there is no material '" + wanted + "'");
   return static_cast<int>(material - materials.begin());
 }
 
@@ -40,12 +40,11 @@ void add_thing(YamlMap map, World& world) {
   Thing thing;
   thing.name = map.text("name");
   if (thing_named(thing.name, world.things))
-    throw Complaint{"'" + map.path("name") + "': two things are named '" + thing.name + "'"};
+    throw map.complaint("name", "cannot be: two things are named '" + thing.name + "'");
   thing.world_from_thing = pose_from(map);
   const int index = static_cast<int>(world.things.size());
-  if (const YAML::Node parts = map.find("parts")) {
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      YamlMap entry(parts[i], map.path("parts[" + std::to_string(i) + "]"));
+  if (map.find("parts")) {
+    for (YamlMap& entry : map.items("parts")) {
       Part part{index, shape_from(entry), {}, material_index(entry, world.materials)};
       part.thing_from_part = pose_from(entry);
       entry.refuse_others();
@@ -61,18 +60,16 @@ void add_thing(YamlMap map, World& world) {
 void add_motion(YamlMap map, World& world) {
   const std::string name = map.text("thing");
   Thing* thing = thing_named(name, world.things);
-  if (!thing) throw Complaint{"'" + map.path("thing") + "': there is no thing '" + name + "'"};
-  if (thing->moves) throw Complaint{"'" + map.path("thing") + "': '" + name + "' moves already"};
+  if (!thing) throw map.complaint("thing", "cannot be: there is no thing '" + name + "'");
+  if (thing->moves) throw map.complaint("thing", "cannot be: '" + name + "' moves already");
   thing->moves = true;
   thing->keys.push_back({0, thing->world_from_thing});
-  const YAML::Node keys = map.need("keys");
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    YamlMap entry(keys[i], map.path("keys[" + std::to_string(i) + "]"));
+  for (YamlMap& entry : map.items("keys")) {
     ThingKey key{entry.number("t", 0, 3600), thing->keys.back().world_from_thing};
     if (!entry.flag("rest")) key.world_from_thing = pose_from(entry);
     entry.refuse_others();
     if (key.time <= thing->keys.back().time)
-      throw Complaint{"the times of '" + map.path("keys") + "' do not increase from above 0"};
+      throw entry.complaint("the times of '" + map.path("keys") + "' do not increase from above 0");
     thing->keys.push_back(key);
   }
   map.refuse_others();

@@ -1,11 +1,11 @@
 // The sections of a world file (world_yaml.hpp), each read by a file of its own. All of them
-// complain by throwing Complaint (yaml_map.hpp).
+// complain by throwing YamlComplaint.
 #pragma once
 
 #include <string>
 
 #include "devices/sim/world.hpp"
-#include "devices/sim/yaml_map.hpp"
+#include "vision/core/yaml_map.hpp"
 
 namespace armsreach::sim {
 

@@ -1,8 +1,10 @@
 #include "devices/speech/wav.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdint>
+
+#include "vision/core/byte_stream.hpp"
 
 namespace armsreach {
 namespace {
@@ -14,27 +16,20 @@ std::int64_t first_sample(const PlacedSound& placed, Timestamp origin) {
   return std::max<std::int64_t>(0, std::llround(seconds * placed.sound->rate));
 }
 
-template <int kBytes>
-void put(std::ostream& out, std::uint32_t value) {
-  std::array<char, kBytes> bytes{};
-  for (int i = 0; i < kBytes; ++i) bytes[i] = static_cast<char>((value >> (8 * i)) & 0xFF);
-  out.write(bytes.data(), kBytes);
-}
-
 void put_header(std::ostream& out, int rate, std::int64_t samples) {
   const auto data_size = static_cast<std::uint32_t>(samples * kBytesPerSample);
   out << "RIFF";
-  put<4>(out, 36 + data_size);
+  write_value(out, 36 + data_size);
   out << "WAVEfmt ";
-  put<4>(out, 16);  // size of the format that follows
-  put<2>(out, 1);   // PCM
-  put<2>(out, 1);   // channels
-  put<4>(out, static_cast<std::uint32_t>(rate));
-  put<4>(out, static_cast<std::uint32_t>(rate * kBytesPerSample));
-  put<2>(out, kBytesPerSample);
-  put<2>(out, 8 * kBytesPerSample);
+  write_value(out, std::uint32_t{16});  // size of the format that follows
+  write_value(out, std::uint16_t{1});   // PCM
+  write_value(out, std::uint16_t{1});   // channels
+  write_value(out, static_cast<std::uint32_t>(rate));
+  write_value(out, static_cast<std::uint32_t>(rate * kBytesPerSample));
+  write_value(out, std::uint16_t{kBytesPerSample});
+  write_value(out, std::uint16_t{8 * kBytesPerSample});
   out << "data";
-  put<4>(out, data_size);
+  write_value(out, data_size);
 }
 
 }  // namespace
@@ -48,9 +43,9 @@ void write_wav(std::ostream& out, const SoundTrack& track, Timestamp origin) {
   put_header(out, track.empty() ? Sound{}.rate : track.front().sound->rate, end);
   std::int64_t written = 0;
   for (const PlacedSound& placed : track) {
-    for (; written < first_sample(placed, origin); ++written) put<2>(out, 0);
+    for (; written < first_sample(placed, origin); ++written) write_value(out, std::int16_t{0});
     for (const std::int16_t sample : placed.sound->samples) {
-      put<2>(out, static_cast<std::uint16_t>(sample));
+      write_value(out, sample);
       ++written;
     }
   }

@@ -4,22 +4,15 @@
 // ratio. The frames are a recording's, with true poses, or without recordings a simulated room's.
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
-#include <limits>
-#include <sstream>
-#include <string>
 #include <time.h>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 #include <octomap/OcTree.h>
-#include <opencv2/imgcodecs.hpp>
 
+#include "tests/support/recorded_views.hpp"
 #include "tests/support/recordings.hpp"
-#include "vision/core/camera_yaml.hpp"
 #include "vision/core/pyramid.hpp"
-#include "vision/core/trajectory.hpp"
 #include "vision/mapping/mesh.hpp"
 #include "vision/mapping/ray_cast.hpp"
 #include "vision/mapping/voxel_map.hpp"
@@ -28,6 +21,8 @@ namespace {
 
 using armsreach::Camera;
 using armsreach::Pose;
+using armsreach::test::RecordedView;
+using armsreach::test::RecordedViews;
 using namespace armsreach::mapping;
 
 // Frames of the recording, ten apart: fewer where the peer takes seconds for each.
@@ -35,49 +30,10 @@ int frames_for(int millimetres, int width) {
   return width > 160 ? 1 : width > 80 || millimetres < 10 ? 2 : 4;
 }
 
-struct Shot {
-  cv::Mat depth;
-  cv::Mat intensity;
-  Pose world_from_camera;
-};
-
-struct Shots {
-  Camera camera;
-  std::vector<Shot> shots;
-};
-
-Shots read_recording(const std::filesystem::path& folder, int width, int count) {
-  std::ifstream camera_file(folder / "camera.yaml");
-  const Camera camera = armsreach::read_camera_yaml(camera_file, "camera.yaml").value().camera;
-  std::ifstream truth_file(folder / "groundtruth.txt");
-  const auto truth = armsreach::read_tum_trajectory(truth_file, "groundtruth.txt").value();
-  std::ifstream list(folder / "associations.txt");
-  Shots out{armsreach::resized(camera, width, width * 3 / 4), {}};
-  std::string line;
-  for (int i = 0; std::getline(list, line) && i < 10 * count; ++i) {
-    if (i % 10 != 0) continue;
-    std::istringstream words(line);
-    double time = 0;
-    std::string color;
-    std::string depth;
-    words >> time >> color >> time >> depth;
-    cv::Mat metres;
-    cv::imread(folder / depth, cv::IMREAD_UNCHANGED)
-        .convertTo(metres, CV_32F, 1 / camera.depth_units_per_metre);
-    metres.setTo(std::numeric_limits<float>::quiet_NaN(), metres == 0);
-    const int factor = camera.width / width;
-    out.shots.push_back({armsreach::reduced_depth(metres, factor),
-                         armsreach::reduced_intensity(cv::imread(folder / color), factor),
-                         truth[static_cast<std::size_t>(i)].world_from_camera});
-  }
-  return out;
-}
-
-// From the middle of a room of 4 x 3 x 4 m, turning.
-Shots simulate_room(int width, int count) {
-  Shots out{armsreach::resized(armsreach::pinhole(640, 480, 585, 585, 319.5, 239.5), width,
-                               width * 3 / 4),
-            {}};
+RecordedViews simulate_room(int width, int count) {
+  RecordedViews out{armsreach::resized(armsreach::pinhole(640, 480, 585, 585, 319.5, 239.5), width,
+                                       width * 3 / 4),
+                    {}};
   const Eigen::Array3d half(2, 1.5, 2);
   for (int i = 0; i < count; ++i) {
     const Pose pose(Eigen::Quaterniond(Eigen::AngleAxisd(0.1 * i, Eigen::Vector3d::UnitY())),
@@ -91,15 +47,16 @@ Shots simulate_room(int width, int count) {
             static_cast<float>(((half * ray.sign() - pose.translation().array()) / ray).minCoeff());
       }
     }
-    out.shots.push_back({depth, cv::Mat(depth.size(), CV_32FC1, cv::Scalar(0.5)), pose});
+    out.views.push_back({depth, cv::Mat(depth.size(), CV_32FC1, cv::Scalar(0.5)), pose});
   }
   return out;
 }
 
-Shots read_shots(int millimetres, int width) {
+RecordedViews read_shots(int millimetres, int width) {
   const int count = frames_for(millimetres, width);
   const auto folder = armsreach::test::recording("rgbd/redkitchen");
-  return folder ? read_recording(*folder, width, count) : simulate_room(width, count);
+  return folder ? armsreach::test::recorded_views(*folder, width, count, 10)
+                : simulate_room(width, count);
 }
 
 // Of this thread's processor time: what else runs on the machine does not count.
@@ -136,7 +93,7 @@ octomap::point3d point(const Eigen::Vector3d& p) {
   return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
 }
 
-octomap::Pointcloud cloud_of(const Shots& shots, const Shot& shot) {
+octomap::Pointcloud cloud_of(const RecordedViews& shots, const RecordedView& shot) {
   octomap::Pointcloud cloud;
   for (int v = 0; v < shot.depth.rows; ++v) {
     for (int u = 0; u < shot.depth.cols; ++u) {
@@ -152,7 +109,7 @@ octomap::Pointcloud cloud_of(const Shots& shots, const Shot& shot) {
 // Arguments: resolution in millimetres, image width.
 void insert_beside_insert_point_cloud(benchmark::State& state) {
   const double resolution = static_cast<double>(state.range(0)) / 1000;
-  const Shots shots =
+  const RecordedViews shots =
       read_shots(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
   VoxelMap map(options_at(resolution));
   octomap::OcTree tree(resolution);
@@ -160,7 +117,7 @@ void insert_beside_insert_point_cloud(benchmark::State& state) {
   double peer = 0;
   double steps = 0;
   for (auto _ : state) {
-    for (const Shot& shot : shots.shots) {
+    for (const RecordedView& shot : shots.views) {
       const octomap::Pointcloud cloud = cloud_of(shots, shot);
       double start = milliseconds();
       map.insert(shot.depth, shot.intensity, cv::Mat(), shots.camera, shot.world_from_camera);
@@ -190,11 +147,11 @@ void cast_with_octomap(const octomap::OcTree& tree, const Camera& camera,
 
 void cast_beside_cast_ray(benchmark::State& state) {
   const double resolution = static_cast<double>(state.range(0)) / 1000;
-  const Shots shots =
+  const RecordedViews shots =
       read_shots(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
   VoxelMap map(options_at(resolution));
   octomap::OcTree tree(resolution);
-  for (const Shot& shot : shots.shots) {
+  for (const RecordedView& shot : shots.views) {
     map.insert(shot.depth, shot.intensity, cv::Mat(), shots.camera, shot.world_from_camera);
     tree.insertPointCloud(cloud_of(shots, shot), point(shot.world_from_camera.translation()));
   }
@@ -202,7 +159,7 @@ void cast_beside_cast_ray(benchmark::State& state) {
   double peer = 0;
   double steps = 0;
   for (auto _ : state) {
-    for (const Shot& shot : shots.shots) {
+    for (const RecordedView& shot : shots.views) {
       double start = milliseconds();
       benchmark::DoNotOptimize(cast(map.grid(), shots.camera, shot.world_from_camera));
       ours += milliseconds() - start;
@@ -237,7 +194,7 @@ void for_each_seen(const VoxelGrid& grid, F&& f) {
 }
 
 // What one frame alone does to a map: the keys and their log-odds.
-std::vector<Update> updates_of(const Shots& shots, const Shot& shot,
+std::vector<Update> updates_of(const RecordedViews& shots, const RecordedView& shot,
                                const VoxelMapOptions& options) {
   VoxelMap one(options);
   one.insert(shot.depth, shot.intensity, cv::Mat(), shots.camera, shot.world_from_camera);
@@ -263,20 +220,20 @@ double intersection_over_union(const VoxelMap& map, const octomap::OcTree& tree)
 void insert_beside_update_node(benchmark::State& state) {
   VoxelMapOptions options = options_at(static_cast<double>(state.range(0)) / 1000);
   options.carve_every = 0;
-  const Shots shots =
+  const RecordedViews shots =
       read_shots(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
   VoxelMap map(options);
   octomap::OcTree tree(options.resolution);
   tree.setClampingThresMin(options.least_certain);
   tree.setClampingThresMax(options.most_certain);
   std::vector<std::vector<Update>> updates;
-  for (const Shot& shot : shots.shots) updates.push_back(updates_of(shots, shot, options));
+  for (const RecordedView& shot : shots.views) updates.push_back(updates_of(shots, shot, options));
   double ours = 0;
   double peer = 0;
   double steps = 0;
   for (auto _ : state) {
     for (std::size_t i = 0; i < updates.size(); ++i) {
-      const Shot& shot = shots.shots[i];
+      const RecordedView& shot = shots.views[i];
       double start = milliseconds();
       map.insert(shot.depth, shot.intensity, cv::Mat(), shots.camera, shot.world_from_camera);
       ours += milliseconds() - start;
@@ -319,10 +276,10 @@ struct LargeMap {
 void step_in_a_large_map(benchmark::State& state) {
   VoxelMapOptions options = options_at(0.01);
   options.carve_every = 0;  // the peer's keys are the band's
-  const Shots shots = read_shots(10, 80);
+  const RecordedViews shots = read_shots(10, 80);
   VoxelMap place(options);
   std::vector<std::vector<Update>> updates;
-  for (const Shot& shot : shots.shots) {
+  for (const RecordedView& shot : shots.views) {
     place.insert(shot.depth, shot.intensity, cv::Mat(), shots.camera, shot.world_from_camera);
     updates.push_back(updates_of(shots, shot, options));
   }
@@ -340,7 +297,7 @@ void step_in_a_large_map(benchmark::State& state) {
   };
   for (auto _ : state) {
     for (std::size_t i = 0; i < updates.size(); ++i, ++steps) {
-      const Shot& shot = shots.shots[i];
+      const RecordedView& shot = shots.views[i];
       const Pose& pose = shot.world_from_camera;
       time(insertion,
            [&] { large.map.insert(shot.depth, shot.intensity, cv::Mat(), shots.camera, pose); });

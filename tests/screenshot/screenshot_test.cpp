@@ -101,7 +101,7 @@ TEST_P(Screenshot, WearerLetterboxedWithInliersAndNoPose) {
 // A hand with the outline of an ellipse that comes in over the lower border.
 Hand hand_at(float x, float y, float size) {
   Hand hand;
-  hand.center = {x, y};
+  hand.center = hand.tip = {x, y};
   hand.size = size;
   for (int i = 0; i < 48; ++i) {
     const float angle = 0.1309F * static_cast<float>(i);
@@ -124,7 +124,7 @@ TEST_P(Screenshot, Hands) {
   grasping.gesture = "grasp";
   grasping.score = 0.88F;
   grasping.angle = -0.8F;
-  grasping.grasping = true;
+  grasping.wedge = 0.26F;
   Hand unknown = hand_at(430, 60, 50);
   scene.hands = {pointing, grasping, unknown};
   scene.cursors = {{{130, 196}, true, ""}};

@@ -1,5 +1,6 @@
 #include "simulated_gestures.hpp"
 
+#include <array>
 #include <numbers>
 #include <utility>
 
@@ -96,27 +97,31 @@ HandPose grasp_round(const HandAnatomy& anatomy, Random& random) {
   const HandPose open = closed_up(usual<Gesture::open>(anatomy, random), 0);
   return blend(usual<Gesture::zero>(anatomy, random), open, random.uniform(0.1, 0.3));
 }
+// All four fingers alike, their tips on the thumb's. Degrees, each drawn from [low, high].
+struct FingertipGrasp {
+  std::array<double, 2> mcp, pip;
+  double dip;
+  std::array<double, 2> thumb_radial, thumb_palmar;
+  double thumb_bend;
+};
+HandPose on_fingertips(const HandAnatomy& anatomy, Random& random, const FingertipGrasp& grasp) {
+  const auto drawn = [&](const std::array<double, 2>& r) { return random.uniform(r[0], r[1]); };
+  HandPose pose = usual<Gesture::zero>(anatomy, random);
+  const double mcp = drawn(grasp.mcp);
+  const double pip = drawn(grasp.pip);
+  for (const Finger finger : kFingers) pose = curled(pose, finger, mcp, pip, grasp.dip);
+  return with(pose, {{thumb_radial, drawn(grasp.thumb_radial)},
+                     {thumb_palmar, drawn(grasp.thumb_palmar)},
+                     {thumb_mcp, grasp.thumb_bend},
+                     {thumb_ip, grasp.thumb_bend}});
+}
 // Straight fingers on the thumb, as around a sheet of paper.
 HandPose grasp_flat(const HandAnatomy& anatomy, Random& random) {
-  HandPose pose = usual<Gesture::zero>(anatomy, random);
-  const double mcp = random.uniform(45, 70);
-  const double pip = random.uniform(10, 35);
-  for (const Finger finger : kFingers) pose = curled(pose, finger, mcp, pip, 10);
-  return with(pose, {{thumb_radial, random.uniform(20, 35)},
-                     {thumb_palmar, random.uniform(48, 60)},
-                     {thumb_mcp, 10},
-                     {thumb_ip, 10}});
+  return on_fingertips(anatomy, random, {{45, 70}, {10, 35}, 10, {20, 35}, {48, 60}, 10});
 }
 // The same with fingers bent along their length, a beak in the arm's direction.
 HandPose grasp_beak(const HandAnatomy& anatomy, Random& random) {
-  HandPose pose = usual<Gesture::zero>(anatomy, random);
-  const double mcp = random.uniform(25, 50);
-  const double pip = random.uniform(25, 45);
-  for (const Finger finger : kFingers) pose = curled(pose, finger, mcp, pip, 20);
-  return with(pose, {{thumb_radial, random.uniform(12, 25)},
-                     {thumb_palmar, random.uniform(35, 50)},
-                     {thumb_mcp, 5},
-                     {thumb_ip, 5}});
+  return on_fingertips(anatomy, random, {{25, 50}, {25, 45}, 20, {12, 25}, {35, 50}, 5});
 }
 
 constexpr Manner kWearable[] = {{"point", usual<Gesture::point>, -40, 40},

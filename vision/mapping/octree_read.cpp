@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-#include "vision/mapping/byte_stream.hpp"
+#include "vision/core/byte_stream.hpp"
 #include "vision/mapping/distance_estimate.hpp"
 #include "vision/mapping/octree_codec.hpp"
 #include "vision/mapping/octree_format.hpp"
@@ -80,22 +80,20 @@ class TreeReader {
 
   // One node and those below it; recursion is as deep as the tree's sixteen levels.
   void node(Blocks& blocks, const Key& corner, int depth) {
-    const auto log_odds = read_value<float>(in_);
-    const auto red = read_value<std::uint8_t>(in_);
-    const auto green = read_value<std::uint8_t>(in_);
-    const auto blue = read_value<std::uint8_t>(in_);
-    const auto children = read_value<std::uint8_t>(in_);
-    if (!children) return fail("the tree is cut off");
-    if (!std::isfinite(*log_odds)) return fail("a node's log-odds is not a number");
+    const auto log_odds = in_.get<float>();
+    const auto rgb = in_.get_values<std::array<std::uint8_t, 3>>();
+    const auto children = in_.get<std::uint8_t>();
+    if (!in_.ok()) return fail("the tree is cut off");
+    if (!std::isfinite(log_odds)) return fail("a node's log-odds is not a number");
     if (nodes_left_-- == 0) return fail("the tree has more nodes than its header says");
-    if (depth == octree::kDepth && *children != 0) return fail("a leaf has children");
-    if (*children == 0) {
-      return leaf(blocks, corner, 1 << (octree::kDepth - depth), *log_odds,
-                  static_cast<std::uint16_t>((*red + *green + *blue) * 257 / 3));
+    if (depth == octree::kDepth && children != 0) return fail("a leaf has children");
+    if (children == 0) {
+      return leaf(blocks, corner, 1 << (octree::kDepth - depth), log_odds,
+                  static_cast<std::uint16_t>((rgb[0] + rgb[1] + rgb[2]) * 257 / 3));
     }
     const int half = 1 << (octree::kDepth - depth - 1);
     for (int child = 0; child < 8 && !wrong_; ++child) {
-      if ((*children >> child & 1) == 0) continue;
+      if ((children >> child & 1) == 0) continue;
       node(blocks,
            {corner[0] + half * (child & 1), corner[1] + half * (child >> 1 & 1),
             corner[2] + half * (child >> 2)},
@@ -140,7 +138,7 @@ class TreeReader {
     if (!wrong_) wrong_ = what;
   }
 
-  std::istream& in_;
+  ValueReader in_;
   std::uint64_t nodes_left_;
   std::size_t max_blocks_;
   std::int16_t lowest_;
@@ -154,27 +152,26 @@ std::optional<std::string> read_distances(std::istream& in, std::size_t max_bloc
   std::size_t count = 0;
   if (!(in >> count) || in.get() != '\n') return "the count of signed distances is missing";
   if (count > max_blocks) return too_large(max_blocks);
+  ValueReader reader(in);
   for (std::size_t i = 0; i < count; ++i) {
-    const auto x = read_value<std::int16_t>(in);
-    const auto y = read_value<std::int16_t>(in);
-    const auto z = read_value<std::int16_t>(in);
-    const auto known = read_value<std::uint16_t>(in);
-    if (!known) return "the signed distances are cut off";
-    const BlockKey key{*x, *y, *z};
-    if (!BlockTable::in_limits(key) || *known > kBlockVoxels) {
+    const auto xyz = reader.get_values<std::array<std::int16_t, 3>>();
+    const auto known = reader.get<std::uint16_t>();
+    if (!reader.ok()) return "the signed distances are cut off";
+    const BlockKey key{xyz[0], xyz[1], xyz[2]};
+    if (!BlockTable::in_limits(key) || known > kBlockVoxels) {
       return "a block of signed distances is impossible";
     }
     Block& block = blocks[key];
-    for (int voxel = 0; voxel < *known; ++voxel) {
-      const auto at = read_value<std::uint16_t>(in);
-      const auto distance = read_value<std::int16_t>(in);
-      const auto weight = read_value<std::uint16_t>(in);
-      const auto intensity = read_value<std::uint16_t>(in);
-      if (!intensity) return "the signed distances are cut off";
-      if (*at >= kBlockVoxels) return "a block of signed distances is impossible";
-      block.distance(*at) = *distance;
-      block.weight(*at) = *weight;
-      block.intensity(*at) = *intensity;
+    for (int voxel = 0; voxel < known; ++voxel) {
+      const auto at = reader.get<std::uint16_t>();
+      const auto distance = reader.get<std::int16_t>();
+      const auto weight = reader.get<std::uint16_t>();
+      const auto intensity = reader.get<std::uint16_t>();
+      if (!reader.ok()) return "the signed distances are cut off";
+      if (at >= kBlockVoxels) return "a block of signed distances is impossible";
+      block.distance(at) = distance;
+      block.weight(at) = weight;
+      block.intensity(at) = intensity;
     }
   }
   return std::nullopt;

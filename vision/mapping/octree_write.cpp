@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "vision/mapping/byte_stream.hpp"
+#include "vision/core/byte_stream.hpp"
 #include "vision/mapping/octree_codec.hpp"
 #include "vision/mapping/octree_format.hpp"
 

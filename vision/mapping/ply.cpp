@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "vision/mapping/byte_stream.hpp"
+#include "vision/core/byte_stream.hpp"
 
 namespace armsreach::mapping {
 
@@ -19,8 +19,8 @@ void write_ply(std::ostream& out, const SurfaceMesh& mesh) {
   }
   out << "end_header\n";
   for (const SurfacePoint& point : mesh.vertices) {
-    for (const float value : point.point_in_world) write_value(out, value);
-    for (const float value : point.normal_in_world) write_value(out, value);
+    write_values(out, point.point_in_world);
+    write_values(out, point.normal_in_world);
     const auto grey = static_cast<std::uint8_t>(std::lround(point.intensity * 255));
     for (int channel = 0; channel < 3; ++channel) write_value(out, grey);
   }

@@ -1,14 +1,14 @@
 #include "vision/mono_slam/sparse_map.hpp"
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 
 #include <Eigen/Cholesky>
+
+#include "vision/core/byte_stream.hpp"
 
 namespace armsreach::mono_slam {
 namespace {
@@ -16,69 +16,31 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
-static_assert(std::endian::native == std::endian::little,
-              "values are stored as they lie in memory");
-
 constexpr std::string_view kMagic = "ARSPARS1";
 constexpr std::uint32_t kMostPoints = 500;
 constexpr std::int32_t kSide = 2 * Patch::kReach + 1;
 constexpr double kFarthest = 1e4;  // m and px: what cannot be
 
-template <class T>
-void put(std::ostream& out, const T& value) {
-  static_assert(std::is_trivially_copyable_v<T>);
-  out.write(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-// Reads values until the stream fails; a failed reader gives zeros.
-class Reader {
- public:
-  explicit Reader(std::istream& in) : in_(in) {}
-  bool ok() const { return in_.good(); }
-  template <class T>
-  T get() {
-    static_assert(std::is_trivially_copyable_v<T>);
-    T value{};
-    in_.read(reinterpret_cast<char*>(&value), sizeof value);
-    return ok() ? value : T{};
-  }
-  template <class Vector>
-  Vector get_vector() {
-    Vector out;
-    for (double& value : out) value = get<double>();
-    return out;
-  }
-
- private:
-  std::istream& in_;
-};
-
-template <class Vector>
-void put_vector(std::ostream& out, const Vector& values) {
-  for (const double value : values) put(out, value);
-}
-
 void put_patch(std::ostream& out, const Patch& patch) {
-  put(out, std::int32_t{patch.size});
-  put_vector(out, patch.pixel);
-  put_vector(out, patch.normal_in_world);
-  put_vector(out, patch.world_from_camera.rotation().coeffs());
-  put_vector(out, patch.world_from_camera.translation());
+  write_value(out, std::int32_t{patch.size});
+  write_values(out, patch.pixel);
+  write_values(out, patch.normal_in_world);
+  write_values(out, patch.world_from_camera.rotation().coeffs());
+  write_values(out, patch.world_from_camera.translation());
   for (int y = 0; y < kSide; ++y) {
     out.write(patch.grey.ptr<char>(y), kSide);
   }
 }
 
 // Nothing when a value cannot be; that the stream ended is for the caller to see.
-std::optional<Patch> get_patch(Reader& in) {
+std::optional<Patch> get_patch(ValueReader& in) {
   constexpr double kUnit = 1e-6;
   Patch patch;
   patch.size = in.get<std::int32_t>();
-  patch.pixel = in.get_vector<Eigen::Vector2d>();
-  patch.normal_in_world = in.get_vector<Vector3d>();
-  Eigen::Quaterniond rotation;
-  rotation.coeffs() = in.get_vector<Eigen::Vector4d>();
-  const auto translation = in.get_vector<Vector3d>();
+  patch.pixel = in.get_values<Eigen::Vector2d>();
+  patch.normal_in_world = in.get_values<Vector3d>();
+  const Eigen::Quaterniond rotation(in.get_values<Eigen::Vector4d>());
+  const auto translation = in.get_values<Vector3d>();
   patch.grey.create(kSide, kSide, CV_8UC1);
   for (int y = 0; y < kSide && in.ok(); ++y) {
     for (unsigned char& value : cv::Mat_<unsigned char>(patch.grey.row(y))) {
@@ -95,9 +57,9 @@ std::optional<Patch> get_patch(Reader& in) {
   return patch;
 }
 
-bool get_point(Reader& in, SparseMap* map) {
+bool get_point(ValueReader& in, SparseMap* map) {
   Landmark landmark;
-  const auto position = in.get_vector<Vector3d>();
+  const auto position = in.get_values<Vector3d>();
   landmark.of_target = in.get<std::uint8_t>() != 0;
   const auto attempts = in.get<std::uint32_t>();
   const auto successes = in.get<std::uint32_t>();
@@ -115,7 +77,7 @@ bool get_point(Reader& in, SparseMap* map) {
 }
 
 // Symmetric as it is stored by halves; nothing unless it is also positive.
-std::optional<MatrixXd> get_covariance(Reader& in, Eigen::Index rows) {
+std::optional<MatrixXd> get_covariance(ValueReader& in, Eigen::Index rows) {
   MatrixXd out(rows, rows);
   for (Eigen::Index row = 0; row < rows && in.ok(); ++row) {
     for (Eigen::Index column = 0; column <= row; ++column) {
@@ -131,17 +93,18 @@ std::optional<MatrixXd> get_covariance(Reader& in, Eigen::Index rows) {
 
 void write_sparse_map(std::ostream& out, const SparseMap& map) {
   out.write(kMagic.data(), static_cast<std::streamsize>(kMagic.size()));
-  put(out, static_cast<std::uint32_t>(map.landmarks.size()));
+  write_value(out, static_cast<std::uint32_t>(map.landmarks.size()));
   for (std::size_t i = 0; i < map.landmarks.size(); ++i) {
     const Landmark& landmark = map.landmarks[i];
-    put_vector(out, map.points_in_world[i]);
-    put(out, static_cast<std::uint8_t>(landmark.of_target ? 1 : 0));
-    put(out, static_cast<std::uint32_t>(landmark.attempts));
-    put(out, static_cast<std::uint32_t>(landmark.successes));
+    write_values(out, map.points_in_world[i]);
+    write_value(out, static_cast<std::uint8_t>(landmark.of_target ? 1 : 0));
+    write_value(out, static_cast<std::uint32_t>(landmark.attempts));
+    write_value(out, static_cast<std::uint32_t>(landmark.successes));
     put_patch(out, landmark.patch);
   }
   for (Eigen::Index row = 0; row < map.covariance.rows(); ++row) {
-    for (Eigen::Index column = 0; column <= row; ++column) put(out, map.covariance(row, column));
+    for (Eigen::Index column = 0; column <= row; ++column)
+      write_value(out, map.covariance(row, column));
   }
 }
 
@@ -150,7 +113,7 @@ Result<SparseMap> read_sparse_map(std::istream& in, const std::string& where) {
   std::string magic(kMagic.size(), '\0');
   in.read(magic.data(), static_cast<std::streamsize>(magic.size()));
   if (!in || magic != kMagic) return Error{"this is not a file of a sparse map", where, kRemedy};
-  Reader reader(in);
+  ValueReader reader(in);
   const auto count = reader.get<std::uint32_t>();
   if (!reader.ok()) return Error{"the file ends before its first point", where, kRemedy};
   SparseMap map;

@@ -1,78 +1,50 @@
 #include "vision/relocalisation/codec.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string_view>
-#include <type_traits>
 #include <utility>
+
+#include "vision/core/byte_stream.hpp"
 
 namespace armsreach::relocalisation {
 namespace {
-
-static_assert(std::endian::native == std::endian::little,
-              "values are stored as they lie in memory");
 
 constexpr std::string_view kMagic = "ARKEYS01";
 constexpr std::uint32_t kMostKeyFrames = 100'000;
 constexpr std::uint32_t kMostFeatures = 100'000;
 constexpr std::int32_t kLargestImage = 4096;  // px, either way
 
-template <class T>
-void put(std::ostream& out, const T& value) {
-  static_assert(std::is_trivially_copyable_v<T>);
-  out.write(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-// Reads values until the stream fails; a failed reader gives zeros.
-class Reader {
- public:
-  explicit Reader(std::istream& in) : in_(in) {}
-  bool ok() const { return in_.good(); }
-  template <class T>
-  T get() {
-    static_assert(std::is_trivially_copyable_v<T>);
-    T value{};
-    in_.read(reinterpret_cast<char*>(&value), sizeof value);
-    return ok() ? value : T{};
-  }
-
- private:
-  std::istream& in_;
-};
-
 void put_pose(std::ostream& out, const Pose& pose) {
-  for (const double value : pose.rotation().coeffs()) put(out, value);
-  for (const double value : pose.translation()) put(out, value);
+  write_values(out, pose.rotation().coeffs());
+  write_values(out, pose.translation());
 }
 
-std::optional<Pose> get_pose(Reader& in) {
-  Eigen::Quaterniond rotation;
-  Eigen::Vector3d translation;
-  for (double& value : rotation.coeffs()) value = in.get<double>();
-  for (double& value : translation) value = in.get<double>();
+std::optional<Pose> get_pose(ValueReader& in) {
+  const Eigen::Quaterniond rotation(in.get_values<Eigen::Vector4d>());
+  const auto translation = in.get_values<Eigen::Vector3d>();
   constexpr double kUnit = 1e-6;
   if (!(std::abs(rotation.norm() - 1) < kUnit) || !translation.allFinite()) return std::nullopt;
   return Pose(rotation, translation);
 }
 
 void put_camera(std::ostream& out, const Camera& camera) {
-  put(out, std::int32_t{camera.width});
-  put(out, std::int32_t{camera.height});
-  put(out, static_cast<std::int32_t>(camera.distortion));
-  for (const double value : {camera.fx, camera.fy, camera.cx, camera.cy}) put(out, value);
-  for (const double value : camera.coefficients) put(out, value);
+  write_value(out, std::int32_t{camera.width});
+  write_value(out, std::int32_t{camera.height});
+  write_value(out, static_cast<std::int32_t>(camera.distortion));
+  for (const double value : {camera.fx, camera.fy, camera.cx, camera.cy}) write_value(out, value);
+  write_values(out, camera.coefficients);
 }
 
-std::optional<Camera> get_camera(Reader& in) {
+std::optional<Camera> get_camera(ValueReader& in) {
   Camera camera;
   camera.width = in.get<std::int32_t>();
   camera.height = in.get<std::int32_t>();
   const auto distortion = in.get<std::int32_t>();
   for (double* value : {&camera.fx, &camera.fy, &camera.cx, &camera.cy}) *value = in.get<double>();
-  for (double& value : camera.coefficients) value = in.get<double>();
+  camera.coefficients = in.get_values<decltype(camera.coefficients)>();
   const auto possible = [](std::int32_t size) { return size > 0 && size <= kLargestImage; };
   if (!possible(camera.width) || !possible(camera.height)) return std::nullopt;
   if (distortion < 0 || distortion > static_cast<std::int32_t>(Distortion::monoslam))
@@ -87,14 +59,12 @@ std::optional<Camera> get_camera(Reader& in) {
 }
 
 void put_depth(std::ostream& out, const cv::Mat& depth) {
-  for (int y = 0; y < depth.rows; ++y) {
-    for (int x = 0; x < depth.cols; ++x) put(out, depth.at<float>(y, x));
-  }
+  for (int y = 0; y < depth.rows; ++y) write_values(out, cv::Mat_<float>(depth.row(y)));
 }
 
 bool possible_depth(float depth) { return std::isfinite(depth) && depth > 0; }
 
-std::optional<cv::Mat> get_depth(Reader& in, cv::Size size) {
+std::optional<cv::Mat> get_depth(ValueReader& in, cv::Size size) {
   cv::Mat depth(size, CV_32FC1);
   for (int y = 0; y < size.height && in.ok(); ++y) {
     for (float& value : cv::Mat_<float>(depth.row(y))) {
@@ -106,23 +76,21 @@ std::optional<cv::Mat> get_depth(Reader& in, cv::Size size) {
 }
 
 void put_features(std::ostream& out, const Features& features) {
-  put(out, static_cast<std::uint32_t>(features.size()));
+  write_value(out, static_cast<std::uint32_t>(features.size()));
   for (const Feature& place : features.places) {
-    put(out, place.ray.x());
-    put(out, place.ray.y());
-    put(out, place.depth);
+    write_values(out, place.ray);
+    write_value(out, place.depth);
   }
-  for (const Descriptor& descriptor : features.descriptors) put(out, descriptor);
+  write_values(out, features.descriptors);
 }
 
-std::optional<Features> get_features(Reader& in) {
+std::optional<Features> get_features(ValueReader& in) {
   const auto count = in.get<std::uint32_t>();
   if (count > kMostFeatures) return std::nullopt;
   std::vector<Feature> places;
   for (std::uint32_t i = 0; i < count && in.ok(); ++i) {
     Feature place;
-    place.ray.x() = in.get<float>();
-    place.ray.y() = in.get<float>();
+    place.ray = in.get_values<Eigen::Vector2f>();
     place.depth = in.get<float>();
     if (!place.ray.allFinite() || !possible_depth(place.depth)) return std::nullopt;
     places.push_back(place);
@@ -133,16 +101,16 @@ std::optional<Features> get_features(Reader& in) {
 }
 
 void put_key_frame(std::ostream& out, const KeyFrame& key_frame) {
-  put(out, key_frame.frame);
+  write_value(out, key_frame.frame);
   put_pose(out, key_frame.world_from_color);
-  put(out, key_frame.view.pixel_size);
+  write_value(out, key_frame.view.pixel_size);
   put_camera(out, key_frame.view.camera);
   put_depth(out, key_frame.view.depth);
   put_features(out, key_frame.view.features);
 }
 
 // Nothing when a value cannot be; that the stream ended is for the caller to see.
-std::shared_ptr<const KeyFrame> get_key_frame(Reader& in) {
+std::shared_ptr<const KeyFrame> get_key_frame(ValueReader& in) {
   auto key_frame = std::make_shared<KeyFrame>();
   key_frame->frame = in.get<std::int64_t>();
   const auto pose = get_pose(in);
@@ -166,7 +134,7 @@ std::shared_ptr<const KeyFrame> get_key_frame(Reader& in) {
 
 void write_key_frames(std::ostream& out, const KeyFrames& key_frames) {
   out.write(kMagic.data(), static_cast<std::streamsize>(kMagic.size()));
-  put(out, static_cast<std::uint32_t>(key_frames.size()));
+  write_value(out, static_cast<std::uint32_t>(key_frames.size()));
   for (const auto& key_frame : key_frames) put_key_frame(out, *key_frame);
 }
 
@@ -175,7 +143,7 @@ Result<KeyFrames> read_key_frames(std::istream& in, const std::string& where) {
   std::string magic(kMagic.size(), '\0');
   in.read(magic.data(), static_cast<std::streamsize>(magic.size()));
   if (!in || magic != kMagic) return Error{"this is not a file of key frames", where, kRemedy};
-  Reader reader(in);
+  ValueReader reader(in);
   const auto count = reader.get<std::uint32_t>();
   KeyFrames key_frames;
   for (std::uint32_t i = 0; i < count; ++i) {

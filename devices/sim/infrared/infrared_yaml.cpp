@@ -2,8 +2,6 @@
 
 #include <Eigen/Geometry>
 
-#include "devices/sim/yaml_map.hpp"
-
 namespace armsreach::sim {
 namespace {
 
@@ -23,7 +21,7 @@ Pose view_from(YamlMap& map) {
   const Eigen::Vector3d forward = map.vector<3>("target") - eye;
   const Eigen::Vector3d right = forward.cross(map.vector<3>("up"));
   if (right.norm() < 1e-9)
-    throw Complaint{"'" + map.path("up") + "' does not lie across the view from eye to target"};
+    throw map.complaint("up", "does not lie across the view from eye to target");
   const Eigen::Vector3d z = forward.normalized();
   const Eigen::Vector3d x = right.normalized();
   Eigen::Matrix3d turn;
@@ -52,8 +50,7 @@ GloveDescription glove_from(YamlMap map) {
 
 }  // namespace
 
-InfraredDescription infrared_from(const YAML::Node& node, const std::string& name) {
-  YamlMap map(node, name);
+InfraredDescription infrared_from(YamlMap map) {
   InfraredDescription infrared;
   infrared.camera = camera_from(map);
   infrared.world_from_camera = view_from(map);
@@ -61,10 +58,8 @@ InfraredDescription infrared_from(const YAML::Node& node, const std::string& nam
   infrared.tape_level = map.number("tape_level", 0, 1e6, infrared.tape_level);
   infrared.white_level = map.number("white_level", 0, 1e4, infrared.white_level);
   infrared.noise = map.number("noise", 0, 100, infrared.noise);
-  if (const YAML::Node worn = map.find("bracelet"))
-    infrared.bracelet = bracelet_from({worn, map.path("bracelet")});
-  if (const YAML::Node worn = map.find("glove"))
-    infrared.glove = glove_from({worn, map.path("glove")});
+  if (map.find("bracelet")) infrared.bracelet = bracelet_from(map.section("bracelet"));
+  if (map.find("glove")) infrared.glove = glove_from(map.section("glove"));
   map.refuse_others();
   return infrared;
 }

@@ -8,17 +8,12 @@
 // what is worn are in infrared_description.hpp and worn.hpp; they, rate and noise may be left out.
 #pragma once
 
-#include <string>
-
 #include "devices/sim/infrared/infrared_description.hpp"
-
-namespace YAML {
-class Node;
-}
+#include "vision/core/yaml_map.hpp"
 
 namespace armsreach::sim {
 
-// For readers of world files: throws Complaint (yaml_map.hpp).
-InfraredDescription infrared_from(const YAML::Node& node, const std::string& name);
+// For readers of world files: throws YamlComplaint.
+InfraredDescription infrared_from(YamlMap map);
 
 }  // namespace armsreach::sim

@@ -1,11 +1,10 @@
 #include <filesystem>
 #include <numbers>
-#include <sstream>
 #include <variant>
 
 #include <gtest/gtest.h>
 
-#include "devices/rig_yaml.hpp"
+#include "tests/unit/devices/broken_rig.hpp"
 
 namespace armsreach {
 namespace {
@@ -23,13 +22,8 @@ constexpr const char* kRig =
     "    model: {upper_deg: [70, 40, 30], lag: 0.05}\n"
     "  other: {kind: uvc, carries: side, device: /dev/video2}\n";
 
-Result<RigSpec> read(const std::string& text) {
-  std::istringstream in(text);
-  return read_rig_yaml(in, "rig.yaml");
-}
-
 TEST(RigActuators, AreReadWithTheirModels) {
-  const auto rig = read(kRig);
+  const auto rig = test::read_rig(kRig);
   ASSERT_TRUE(rig) << rig.error().message();
   ASSERT_EQ(rig->gimbals.size(), 2U);
   const RigGimbalSpec& gaze = rig->gimbals[0];
@@ -47,30 +41,19 @@ TEST(RigActuators, AreReadWithTheirModels) {
 }
 
 TEST(RigActuators, WhatIsWrongIsNamedWithItsLine) {
-  struct Broken {
-    std::string from, to, where, what;
-  };
-  const std::vector<Broken> all = {
+  const std::vector<test::BrokenRig> all = {
       {"kind: firmata", "kind: steppers", "rig.yaml:6", "no known kind"},
       {"    kind: firmata\n", "", "rig.yaml:6", "no known kind"},
       {"port:", "prt:", "rig.yaml:7", "'prt'"},
       {"[2, 3, 4]", "[2, 3]", "rig.yaml:8", "'pins'"},
       {"[2, 3, 4]", "[2, 3, x]", "rig.yaml:8", "'pins'"},
       {"9.5]", ".nan]", "rig.yaml:6", "'us_per_degree'"},
-      {"lag: 0.05", "lag: 5", "rig.yaml", "'lag'"},
+      {"lag: 0.05", "lag: 5", "rig.yaml:10", "'lag'"},
       {"carries: side", "carries: back", "rig.yaml:11", "no sensor"},
       {"carries: side", "carries: main", "rig.yaml:11", "two gimbals"},
       {"{kind: uvc, carries: side, device: /dev/video2}", "none", "rig.yaml:11", "not a map"},
   };
-  for (const Broken& broken : all) {
-    std::string text = kRig;
-    text.replace(text.find(broken.from), broken.from.size(), broken.to);
-    const auto rig = read(text);
-    ASSERT_FALSE(rig) << text;
-    EXPECT_EQ(rig.error().where, broken.where) << rig.error().message();
-    EXPECT_NE(rig.error().what.find(broken.what), std::string::npos) << rig.error().message();
-    EXPECT_FALSE(rig.error().remedy.empty());
-  }
+  test::expect_complaints(kRig, all);
 }
 
 TEST(RigActuators, TheExamplesAreReadable) {

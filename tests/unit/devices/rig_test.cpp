@@ -1,10 +1,8 @@
 #include "devices/rig.hpp"
 
-#include <sstream>
-
 #include <gtest/gtest.h>
 
-#include "devices/rig_yaml.hpp"
+#include "tests/unit/devices/broken_rig.hpp"
 #include "tests/unit/devices/recorded_folder.hpp"
 
 namespace armsreach {
@@ -20,13 +18,8 @@ constexpr const char* kRig =
     "    rig_from_sensor: {rotation_vector: [0, 0, 1.5], translation: [0.1, 0, 0]}\n"
     "  - {name: ir, source: 'images:infrared'}\n";
 
-Result<RigSpec> read(const std::string& text) {
-  std::istringstream in(text);
-  return read_rig_yaml(in, "rig.yaml");
-}
-
 TEST(RigYaml, ReadsSensorsAndTheirPoses) {
-  const auto rig = read(kRig);
+  const auto rig = test::read_rig(kRig);
   ASSERT_TRUE(rig) << rig.error().message();
   ASSERT_EQ(rig->sensors.size(), 2U);
   const RigSensorSpec& depth = rig->sensors[0];
@@ -39,10 +32,7 @@ TEST(RigYaml, ReadsSensorsAndTheirPoses) {
 }
 
 TEST(RigYaml, NamesTheLineAndTheEntryThatIsWrong) {
-  struct Broken {
-    std::string from, to, where, what;
-  };
-  const std::vector<Broken> all = {
+  const std::vector<test::BrokenRig> all = {
       {"sensors:", "sensor:", "rig.yaml:1", "'sensor'"},
       {"name: depth", "nam: depth", "rig.yaml:2", "'nam'"},
       {"    camera:", "    camra:", "rig.yaml:4", "'camra'"},
@@ -60,15 +50,7 @@ TEST(RigYaml, NamesTheLineAndTheEntryThatIsWrong) {
       {kRig, "", "rig.yaml", ""},
       {kRig, "a: [1, 2", "rig.yaml", "YAML"},
   };
-  for (const Broken& broken : all) {
-    std::string text = kRig;
-    text.replace(text.find(broken.from), broken.from.size(), broken.to);
-    const auto rig = read(text);
-    ASSERT_FALSE(rig) << text;
-    EXPECT_EQ(rig.error().where, broken.where) << rig.error().message();
-    EXPECT_NE(rig.error().what.find(broken.what), std::string::npos) << rig.error().message();
-    EXPECT_FALSE(rig.error().remedy.empty());
-  }
+  test::expect_complaints(kRig, all);
 }
 
 TEST(RigFromSpecs, NamesSensors) {

@@ -169,9 +169,9 @@ TEST_F(TumRecordingTest, BrokenRecordingsAreRefusedByNameWithARemedy) {
   };
   const std::vector<Broken> all = {
       {[](auto& f) { f.remove("camera.yaml"); }, "camera.yaml", "no camera file"},
-      {[](auto& f) { f.replace("camera.yaml", "30.0", ".nan"); }, "camera.yaml", "camera_matrix"},
-      {[](auto& f) { f.replace("camera.yaml", "30.0", "-30"); }, "camera.yaml", "focal length"},
-      {[](auto& f) { f.replace("camera.yaml", "image_width: 32\n", ""); }, "camera.yaml",
+      {[](auto& f) { f.replace("camera.yaml", "30.0", ".nan"); }, "camera.yaml:3", "camera_matrix"},
+      {[](auto& f) { f.replace("camera.yaml", "30.0", "-30"); }, "camera.yaml:3", "focal length"},
+      {[](auto& f) { f.replace("camera.yaml", "image_width: 32\n", ""); }, "camera.yaml:1",
        "image_width"},
       {[](auto& f) { f.write("camera_color.yaml", test::camera_yaml(kWidth, kHeight)); },
        "camera_color.yaml", "camera_from_depth"},

@@ -1,6 +1,8 @@
 // How the map is framed: up is found, views look where they say, and framing keeps calm.
 #include "render/room.hpp"
 
+#include <numbers>
+
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
@@ -50,6 +52,18 @@ TEST(Room, StatedUpIsTaken) {
   Scene scene = scene_of_tiny_world();
   scene.up_in_world = Vector3d(0.1, 0, 1);
   EXPECT_LT((guess_room(scene) * scene.up_in_world.normalized() - Vector3d::UnitZ()).norm(), 1e-9);
+}
+
+TEST(Room, UpIsNotKnownToACameraThatLooksStraightDown) {
+  Scene scene = scene_of_tiny_world();
+  const auto up = known_up(scene);
+  ASSERT_TRUE(up.has_value());
+  EXPECT_LT((*up - Vector3d::UnitZ()).norm(), 0.02);
+  scene.world_from_camera =
+      Pose(Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi, Vector3d::UnitX())), {0, 0, 1});
+  EXPECT_FALSE(known_up(scene).has_value());
+  scene.surface = nullptr;
+  EXPECT_FALSE(known_up(scene).has_value());
 }
 
 TEST(Framing, IgnoresSmallChangesAndFollowsLargeOnesWithinASecond) {

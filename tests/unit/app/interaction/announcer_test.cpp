@@ -126,6 +126,8 @@ TEST(Remarks, EventsAndTheirSentences) {
   EXPECT_EQ(remark(TrackingEvent{TrackingState::tracking, 0, 0}), "tracking|Tracking.");
   EXPECT_EQ(remark(TrackingEvent{TrackingState::initialising, 0, 0}), "");
   EXPECT_EQ(remark(InsertEvent{"teapot", 3, {}}), "object 3|teapot inserted.");
+  EXPECT_EQ(remark(AcceptEvent{3, {0, 0, 1}}), "object 3|Accepted.");
+  EXPECT_EQ(remark(RejectEvent{3, {0, 0, 1}}), "object 3|Rejected.");
   EXPECT_EQ(remark(DeleteEvent{"teapot", 3, {}}), "object 3|teapot deleted.");
   EXPECT_EQ(remark(MoveEvent{"teapot", 3, {}}), "");
   EXPECT_EQ(remark(FaultEvent{"camera", "it has gone", "plug it in"}),

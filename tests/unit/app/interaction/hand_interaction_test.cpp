@@ -26,12 +26,13 @@ class FloorWorld final : public WorldView {
   std::uint64_t revision() const override { return 1; }
 };
 
-const Eigen::Vector3d kViewer(0, -1, 1);
+const Eigen::Vector3d kEye(0, -1, 1);
+const Viewer kViewer{kEye};
 
 class HandInteractionTest : public testing::Test {
  protected:
   Events act(Action action, double x = 0) {
-    const Ray ray{kViewer, Eigen::Vector3d(x, 0, 0) - kViewer};
+    const Ray ray{kEye, Eigen::Vector3d(x, 0, 0) - kEye};
     return hand_.act({action, ray}, &placement_, &world_, kViewer, 5);
   }
 

@@ -2,6 +2,7 @@
 #include "app/interaction/placement.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -38,10 +39,11 @@ class TableWorld final : public WorldView {
   Pose correction_;
 };
 
-const Eigen::Vector3d kViewer(0, -2, 2);
+const Eigen::Vector3d kEye(0, -2, 2);
+const Viewer kViewer{kEye};
 
 Click at(double x, double y, const std::string& mesh) {
-  return {{kViewer, Eigen::Vector3d(x, y, 0.5) - kViewer}, mesh};
+  return {{kEye, Eigen::Vector3d(x, y, 0.5) - kEye}, mesh};
 }
 
 TEST(Placement, AnObjectStandsOnThePlaneAndFacesTheViewer) {
@@ -55,7 +57,7 @@ TEST(Placement, AnObjectStandsOnThePlaneAndFacesTheViewer) {
   EXPECT_NEAR(pose.translation().z(), 0.5, 1e-9);
   EXPECT_LT((pose.translation() - Eigen::Vector3d(0.3, 0.2, 0.5)).norm(), 0.01);
   EXPECT_LT((pose.rotation() * Eigen::Vector3d::UnitZ() - Eigen::Vector3d::UnitZ()).norm(), 1e-9);
-  EXPECT_GT((pose.rotation() * -Eigen::Vector3d::UnitY()).dot(kViewer - pose.translation()), 0);
+  EXPECT_GT((pose.rotation() * -Eigen::Vector3d::UnitY()).dot(kEye - pose.translation()), 0);
   EXPECT_NEAR(pose.rotation_matrix().determinant(), 1, 1e-9);
 }
 
@@ -69,6 +71,22 @@ TEST(Placement, SaysWhyNothingWasInserted) {
     EXPECT_FALSE(std::get<FaultEvent>(events[0].body).remedy.empty());
   }
   EXPECT_TRUE(placement.objects().empty());
+}
+
+TEST(Placement, NothingIsStoodOnWhatIsSteep) {
+  const TableWorld world;
+  Placement placement;
+  const double slope = 50 * std::numbers::pi / 180;
+  const Viewer table_is_level{kEye, Eigen::Vector3d::UnitZ()};
+  const Viewer table_is_sloping{kEye, Eigen::Vector3d(std::sin(slope), 0, std::cos(slope))};
+  const Viewer table_is_a_wall{kEye, Eigen::Vector3d::UnitY()};
+  placement.click(at(0, 0, "cube"), &world, table_is_level, 0);
+  placement.click(at(0.3, 0, "cube"), &world, table_is_sloping, 0);
+  EXPECT_EQ(placement.objects().size(), 2U);
+  const Events refused = placement.click(at(-0.3, 0, "cube"), &world, table_is_a_wall, 0);
+  EXPECT_EQ(placement.objects().size(), 2U);
+  ASSERT_EQ(refused.size(), 1U);
+  EXPECT_FALSE(std::get<FaultEvent>(refused[0].body).remedy.empty());
 }
 
 TEST(Placement, SelectsTheObjectThatIsMeantAndDeletesIt) {

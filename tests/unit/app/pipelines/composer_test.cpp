@@ -63,14 +63,14 @@ TEST(Composer, ALostFramesPoseIsNotDrawnWithARelocalisedOnesIs) {
   EXPECT_TRUE(known(TrackingState::tracking));
 }
 
-TEST(Composer, OfTheTrackingOnlyTheNewestStateIsAMessage) {
+TEST(Composer, TheTrackingsStateIsShownOnceAndNotAsAMessageToo) {
   EventLog log;
   log.write({0, TrackingEvent{TrackingState::initialising, 0, 0}});
   log.write({1, TrackingEvent{TrackingState::tracking, 0, 0}});
   Composer composing = composer(log);
   const auto scene = composing.process({tracked(1), nullptr, {}})->scene;
-  ASSERT_EQ(scene->messages.size(), 1U);
-  EXPECT_EQ(scene->messages[0].text, "tracking");
+  EXPECT_EQ(scene->tracking_state, "tracking");
+  EXPECT_TRUE(scene->messages.empty());
 }
 
 TEST(Composer, ObjectsOfAnotherDayStandWhereTheyStood) {

@@ -129,7 +129,8 @@ TEST(Config, RefusesByName) {
     ASSERT_FALSE(config) << text;
     EXPECT_NE(config.error().message().find(expected), std::string::npos)
         << text << " -> " << config.error().message();
-    EXPECT_EQ(config.error().where, "with-teapot.yaml");
+    const bool parsed = expected != "YAML";  // yaml-cpp says the line itself
+    EXPECT_EQ(config.error().where, parsed ? "with-teapot.yaml:1" : "with-teapot.yaml");
   }
 }
 

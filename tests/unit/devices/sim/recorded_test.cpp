@@ -1,7 +1,6 @@
 // A recording equals its source: the images bit for bit, the poses and the truth to the last
 // digits.
 #include <csignal>
-#include <cstring>
 #include <string>
 #include <sys/resource.h>
 
@@ -15,6 +14,7 @@
 #include "devices/truth.hpp"
 #include "devices/tum_writer.hpp"
 #include "tests/support/program.hpp"
+#include "tests/unit/devices/sim/same_picture.hpp"
 
 namespace armsreach::sim {
 namespace {
@@ -25,15 +25,6 @@ std::unique_ptr<Source> open(const std::string& text) {
   auto source = open_source(*parse_source_spec(text), {}, kinds);
   EXPECT_TRUE(source.ok()) << source.error().message();
   return std::move(*source);
-}
-
-bool same(const cv::Mat& a, const cv::Mat& b) {
-  if (a.size() != b.size() || a.type() != b.type()) return false;
-  for (int y = 0; y < a.rows; ++y) {
-    const std::size_t bytes = static_cast<std::size_t>(a.cols) * a.elemSize();
-    if (std::memcmp(a.ptr(y), b.ptr(y), bytes) != 0) return false;
-  }
-  return true;
 }
 
 // Rotations are normalised anew when they are read, which may change their last digit.

@@ -1,6 +1,5 @@
 #include "devices/sim/sim_source.hpp"
 
-#include <cstring>
 #include <string>
 #include <thread>
 #include <vector>
@@ -8,6 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
+
+#include "tests/unit/devices/sim/same_picture.hpp"
 
 namespace armsreach::sim {
 namespace {
@@ -28,16 +29,6 @@ std::vector<FramePtr> frames_of(const std::string& text) {
     if (!frame || !*frame) return frames;
     frames.push_back(*frame);
   }
-}
-
-// Bit for bit, NaN included.
-bool same(const cv::Mat& a, const cv::Mat& b) {
-  if (a.size() != b.size() || a.type() != b.type()) return false;
-  for (int y = 0; y < a.rows; ++y) {
-    const std::size_t bytes = static_cast<std::size_t>(a.cols) * a.elemSize();
-    if (std::memcmp(a.ptr(y), b.ptr(y), bytes) != 0) return false;
-  }
-  return true;
 }
 
 TEST(SimSource, TheSameSeedGivesTheSameBits) {

@@ -43,6 +43,18 @@ TEST(GestureInference, APointingHandHasACursorAndAGraspingOneADirection) {
   EXPECT_EQ(out.hands[0].direction, 0.4);
 }
 
+TEST(GestureInference, AGraspIsOverWhenAnotherGestureIsShown) {
+  for (const std::string other : {"point", "L", "open", "fist"}) {
+    GestureInference inference(shipped());
+    Gestures out;
+    for (int i = 0; i < 20; ++i) out = inference.update({showing("grasp")}, i * kFrame);
+    ASSERT_TRUE(out.hands[0].direction);
+    for (int i = 20; i < 40; ++i) out = inference.update({showing(other)}, i * kFrame);
+    EXPECT_FALSE(out.hands[0].direction) << other;
+    EXPECT_TRUE(out.actions.empty()) << other;
+  }
+}
+
 TEST(GestureInference, ACursorStaysWhereAFrameTellsNothingAndGoesWithTheIndexFinger) {
   GestureInference inference(shipped());
   Gestures out;

@@ -90,7 +90,7 @@ TEST(GestureTable, WhatIsWrongIsNamed) {
   EXPECT_THAT(complaint("states: [{name: a}]"), HasSubstr("'transitions' must be a list"));
   EXPECT_THAT(complaint("[]"), HasSubstr("is not a map"));
   EXPECT_THAT(complaint("states: [{name: a, colour: red}]\ntransitions: []"),
-              HasSubstr("unknown key 'colour' in 'states[0]'"));
+              HasSubstr("unknown key 'states[0].colour'"));
   EXPECT_THAT(complaint("states: [{name: a}, {name: a}]\ntransitions: []"),
               HasSubstr("two states 'a'"));
   EXPECT_THAT(complaint(states + "transitions: [{from: a, on: fist, to: c}]"),
