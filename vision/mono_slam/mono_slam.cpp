@@ -81,6 +81,7 @@ MonoResult MonoSlam::step(const MonoInput& input) {
   if (state_ == TrackingState::relocalised) state_ = TrackingState::tracking;
   if (state_ == TrackingState::initialising) {
     initialise(input);
+    inliers_ = static_cast<int>(landmarks_.size());
   } else if (state_ == TrackingState::lost) {
     find_again();
   } else {
