@@ -76,6 +76,9 @@ Result<std::unique_ptr<Recording>> open_image_recording(const fs::path& folder, 
   auto calibration = calibration_or_guess(options, folder / "camera.yaml", size->width,
                                           size->height, "images:" + folder.string());
   if (!calibration) return std::move(calibration).error();
+  if (auto fits = check_size(*size, calibration->camera, "colour", files->front()); !fits) {
+    return fits.error();
+  }
   SensorInfo sensor;
   sensor.name = options.sensor;
   sensor.rate = rate;

@@ -56,6 +56,9 @@ struct Views {
 Result<Chessboard> board_of(const CalibrateOptions& options) {
   Chessboard board;
   board.square = options.square;
+  if (!(board.square > 0 && board.square < 10)) {
+    return Error{"no side of a square", "--square", "give metres, for example --square 0.025"};
+  }
   char end = 0;
   const int read = std::sscanf(options.board.c_str(), "%dx%d%c", &board.columns, &board.rows, &end);
   if (read == 2 && board.columns > 2 && board.rows > 2 && board.corners() < 2500) return board;
@@ -258,9 +261,7 @@ void add_calibrate_camera(CLI::App& calibrate_verb, Task* task) {
   command->add_option("--source", o->rig.sources, "or a source the board is shown to");
   command->add_option("--rig", o->rig.rig, "or a rig's main sensor");
   command->add_option("--board", o->board, "inner corners")->capture_default_str();
-  command->add_option("--square", o->square, "side of a square, m")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  command->add_option("--square", o->square, "side of a square, m")->capture_default_str();
   command->add_option("--model", o->model, "of the lens")
       ->check(CLI::IsMember({"plumb_bob", "rational_polynomial", "fisheye"}))
       ->capture_default_str();

@@ -18,6 +18,9 @@ struct TargetOptions {
 };
 
 Status make_target(const TargetOptions& options) {
+  if (std::filesystem::path(options.out).extension() != ".pdf") {
+    return Error{"is not the name of a PDF", options.out, "for example --out target.pdf"};
+  }
   double width = 0;
   double height = 0;
   char end = 0;

@@ -26,7 +26,11 @@ Result<mono_slam::StartTarget> read_target(const fs::path& path) {
   target.rectangle = file->rectangle;
   for (const auto& mark : file->marks) {
     const fs::path patch = path.parent_path() / mark.patch;
-    const cv::Mat image = cv::imread(patch.string(), cv::IMREAD_GRAYSCALE);
+    // OpenCV says on the terminal what it cannot open.
+    std::error_code ignored;
+    const cv::Mat image = fs::is_regular_file(patch, ignored)
+                              ? cv::imread(patch.string(), cv::IMREAD_GRAYSCALE)
+                              : cv::Mat();
     if (image.empty() || image.rows != image.cols || image.rows % 2 == 0 ||
         image.rows > kLargestPatch) {
       return Error{"is not a square grey image of an odd size up to 15 px", patch.string(),

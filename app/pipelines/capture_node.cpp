@@ -51,6 +51,8 @@ FramePtr CaptureNode::next_frame() {
       broken_in_a_row_ = 0;
       const FramePtr& frame = **result;
       if (frame) count_frame(start);
+      // Played to its end without one good frame.
+      if (!frame && delivered_ == 0) failure_ = std::exchange(broken_, std::nullopt);
       if (frame && frame->sensor->name != options_.sensor) continue;
       return frame;
     }
@@ -63,6 +65,7 @@ FramePtr CaptureNode::next_frame() {
         failure_ = error;
         return nullptr;
       }
+      broken_ = error;
     } else if (++broken_in_a_row_ >= kMostBrokenInARow) {
       failure_ =
           Error{"the source keeps failing", "capture", "see the events", Error::Kind::device};

@@ -49,6 +49,7 @@ class CaptureNode final : public Node {
   Outlet<FramePtr> outlet_;
   std::function<void()> before_reading_;
   std::optional<Error> failure_;
+  std::optional<Error> broken_;  // the last
   std::int64_t delivered_ = 0;
   Timestamp last_time_ = 0;
   int broken_in_a_row_ = 0;

@@ -63,6 +63,7 @@ MonoStageOutput MonoStage::process(const MonoStageInput& input) {
   statistics_.add(*result);
 
   MonoStageOutput out;
+  tell_of_start(input, *result, &out.events);
   tell_scale(*result, &out.events);
   auto seen = std::make_shared<Frame>(*input.frame);
   seen->depth.release();
@@ -154,13 +155,30 @@ std::optional<mono_slam::CameraControl> MonoStage::commanded(
   return control;
 }
 
-void MonoStage::tell_scale(const mono_slam::MonoResult& result, Events* events) {
-  if (waits_for_target_ && result.frame == kPatience &&
-      result.state == TrackingState::initialising) {
-    events->push_back(
-        {result.time, FaultEvent{"tracking", "the start target has not been seen yet",
-                                 "hold the camera so that the whole target is in the picture"}});
+// What a session that cannot start yet waits for.
+void MonoStage::tell_of_start(const MonoStageInput& input, const mono_slam::MonoResult& result,
+                              Events* events) {
+  const auto tell = [&](const char* what, const char* remedy) {
+    events->push_back({result.time, FaultEvent{"tracking", what, remedy}});
+  };
+  const bool waits = result.state == TrackingState::initialising;
+  if (waits && result.target == mono_slam::TargetSight::too_far && !too_far_told_) {
+    too_far_told_ = true;
+    tell("the start target is seen, but too small to say where the camera is",
+         "bring the target closer, or the camera to it, until it fills a fifth of the picture's "
+         "width");
+  } else if (waits && waits_for_target_ && !too_far_told_ && result.frame == kPatience) {
+    tell("the start target has not been seen yet",
+         "hold the camera so that the whole target is in the picture, upright and from the front");
   }
+  if (result.state_changed && result.scale == mono_slam::ScaleFrom::stated &&
+      !input.frame->depth.empty()) {
+    tell("the depth frames show too little to measure the scale by",
+         "start before things within the depth camera's range");
+  }
+}
+
+void MonoStage::tell_scale(const mono_slam::MonoResult& result, Events* events) {
   if (std::exchange(scale_told_, result.scale) == result.scale ||
       result.scale != mono_slam::ScaleFrom::stated)
     return;

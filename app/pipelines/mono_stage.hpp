@@ -54,12 +54,15 @@ class MonoStage final : public Stage<MonoStageInput, MonoStageOutput> {
   cv::Mat first_depth(const Frame& frame) const;
   cv::Mat without_hands(const HandsState& hands, const Frame& frame) const;
   std::optional<mono_slam::CameraControl> commanded(const std::optional<GimbalState>& now);
+  void tell_of_start(const MonoStageInput& input, const mono_slam::MonoResult& result,
+                     Events* events);
   void tell_scale(const mono_slam::MonoResult& result, Events* events);
 
   Camera camera_;  // reduced
   Pose color_from_depth_;
   Eigen::Vector3d up_in_world_;
   bool waits_for_target_;
+  bool too_far_told_ = false;
   double stated_distance_;
   std::optional<GimbalModel> gimbal_;
   std::optional<GimbalState> gimbal_before_;

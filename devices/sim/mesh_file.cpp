@@ -113,8 +113,7 @@ Result<Mesh> load_mesh(const std::filesystem::path& file, double scale) {
                  "see whether its 'scale' makes it metres"};
   }
   if (triangles.size() > kMostMeshTriangles) {
-    const std::string count = std::to_string(triangles.size());
-    return Error{"a mesh of " + count + " triangles", name,
+    return Error{"a mesh of " + std::to_string(triangles.size()) + " triangles", name,
                  "decimate it to " + std::to_string(kMostMeshTriangles) + " or fewer"};
   }
   Mesh mesh{name, scale, nullptr, solid_around(triangles)};

@@ -123,6 +123,34 @@ TEST(EndToEndMono, TheDeskIsTrackedFromItsTarget) {
   EXPECT_FALSE(has_fault(run, "scale"));
 }
 
+// The desk's target is in none of the simulated worlds.
+TEST(EndToEndMono, NothingStartsOnATargetThatIsNotThere) {
+  ARMSREACH_RECORDING_OR_SKIP(desk, "mono/desk");
+  const TemporaryFolder folder;
+  for (const char* world : {"bench", "kitchen-table", "near", "packaging", "assembly"}) {
+    const MonoRun run = track(
+        folder, std::string("sim:") + world + ",frames=70,seed=1",
+        std::string(kMono) + "mono_slam: {target: " + (desk / "target.yaml").string() + "}\n");
+    EXPECT_EQ(run.stats["tracked_frames"], 0) << world;
+    EXPECT_TRUE(has_fault(run, "has not been seen yet")) << world;
+  }
+}
+
+// Against the simulator's truth, up to a similarity: a depth frame gives the scale.
+TEST(EndToEndMono, OnTheBenchItIsRightToACentimetre) {
+  const TemporaryFolder folder;
+  const std::string bench = "sim:bench,frames=150,seed=1";
+  const MonoRun run = track(folder, bench, kMono);
+  EXPECT_EQ(run.stats["tracked_frames"], 150);
+  EXPECT_EQ(run.stats["mono_slam"]["scale"], "depth");
+  ASSERT_EQ(run_armsreach({"record", "--source", bench, "--out", folder / "truth"}).exit_code, 0);
+  const ProgramResult evaluated =
+      run_armsreach({"evaluate", "trajectory", "--estimate", folder / "t.txt", "--truth",
+                     folder / "truth/groundtruth.txt", "--scale", "--json", folder / "a.json"});
+  ASSERT_EQ(evaluated.exit_code, 0) << evaluated.output;
+  EXPECT_LT(json::parse(read_text(folder / "a.json"))["ate_rmse"], 0.01);
+}
+
 TEST(EndToEndMono, TheTargetMayBeForgotten) {
   ARMSREACH_RECORDING_OR_SKIP(desk, "mono/desk");
   const TemporaryFolder folder;
@@ -303,6 +331,16 @@ TEST(EndToEndMono, WhatCannotBeIsRefused) {
     EXPECT_EQ(run.exit_code, 2) << run.output;
     return run.output;
   };
+  cv::imwrite(folder / "0.png", cv::Mat(48, 64, CV_8UC1, cv::Scalar(90)));
+  write_text(folder / "camera.yaml",
+             "image_width: 32\nimage_height: 24\ncamera_matrix: {rows: 3, cols: 3, data: [30, 0, "
+             "15.5, 0, 30, 11.5, 0, 0, 1]}\ndistortion_model: plumb_bob\n"
+             "distortion_coefficients: {rows: 1, cols: 5, data: [0, 0, 0, 0, 0]}\n");
+  const ProgramResult sizes = run_armsreach(
+      {"run", "--source", "images:" + fs::path(folder / "0.png").parent_path().string(), "--camera",
+       folder / "camera.yaml", "--display", "none"});
+  EXPECT_EQ(sizes.exit_code, 2) << sizes.output;
+  EXPECT_THAT(sizes.output, HasSubstr("64x48, its camera 32x24"));
   EXPECT_THAT(refused("mono.yaml", "workspace"), HasSubstr("not for the workspace"));
   EXPECT_THAT(refused("target.yaml", "wearable"), HasSubstr("nowhere.yaml"));
   EXPECT_THAT(refused("key.yaml", "wearable"), HasSubstr("visible_points"));

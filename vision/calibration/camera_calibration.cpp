@@ -9,6 +9,11 @@ namespace armsreach::calibration {
 namespace {
 
 constexpr std::size_t kFewestViews = 3;
+constexpr const char* kShowMore =
+    "show the board tilted, near and far, and in every corner of the image";
+// Of the focal length: a calibration that knows it worse is none.
+constexpr double kMostDeviation = 0.03;
+constexpr double kSameView = 1;  // px rms between the corners of a view and its repetition
 // A view with this many times the median error has a corner in the wrong place (or a bent board).
 constexpr double kOutlier = 4;
 
@@ -83,6 +88,16 @@ double rms_between(const Corners& a, const Corners& b) {
   return std::sqrt(sum / static_cast<double>(a.size()));
 }
 
+// Pictures of one view, however many, are one.
+std::size_t distinct(const std::vector<Corners>& views) {
+  std::vector<const Corners*> known;
+  for (const Corners& view : views) {
+    const auto same = [&](const Corners* other) { return rms_between(*other, view) < kSameView; };
+    if (std::none_of(known.begin(), known.end(), same)) known.push_back(&view);
+  }
+  return known.size();
+}
+
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -139,8 +154,9 @@ Result<CameraCalibration> calibrate_camera(const std::vector<Corners>& views, cv
     return Error{"the monoslam model cannot be calibrated", where,
                  "use plumb_bob, rational_polynomial or fisheye"};
   }
-  if (views.size() < kFewestViews) {
-    return Error{std::to_string(views.size()) + " views of the board are too few", where,
+  if (distinct(views) < kFewestViews) {
+    return Error{std::to_string(distinct(views)) + " different views of the board are too few",
+                 where,
                  "show all of it in at least three, better twelve, from different sides; "
                  "--board COLUMNSxROWS counts inner corners"};
   }
@@ -157,10 +173,12 @@ Result<CameraCalibration> calibrate_camera(const std::vector<Corners>& views, cv
     } else if (good.size() < views.size()) {
       fit = fit_views(good, image, board, model);
     }
+    if (!(fit.focal_deviation < kMostDeviation * fit.matrix.at<double>(0, 0))) {
+      return Error{"the views leave the focal length uncertain by more than 3 %", where, kShowMore};
+    }
     return summary(views, fit, image, board, model, errors, std::move(kept));
   } catch (const cv::Exception& e) {
-    return Error{"the views do not determine a camera: " + e.err, where,
-                 "show the board tilted, near and far, and in every corner of the image"};
+    return Error{"the views do not determine a camera: " + e.err, where, kShowMore};
   }
 }
 

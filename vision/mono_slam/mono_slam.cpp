@@ -67,7 +67,9 @@ MonoSlam::MonoSlam(const Camera& camera, const MonoSlamOptions& options)
       random_(options.seed),
       // Rays take up to twice the rows of a point.
       filter_(camera, options.most_points + options.visible_points, options.pixel_sigma),
-      turn_meter_(camera) {}
+      turn_meter_(camera) {
+  if (options.target) target_.emplace(*options.target);
+}
 
 MonoResult MonoSlam::step(const MonoInput& input) {
   CV_Assert(input.grey.type() == CV_8UC1 && input.grey.cols == camera_.width &&
@@ -84,6 +86,7 @@ MonoResult MonoSlam::step(const MonoInput& input) {
   if (state_ == TrackingState::relocalised) state_ = TrackingState::tracking;
   if (state_ == TrackingState::initialising) {
     initialise(input);
+    inliers_ = static_cast<int>(landmarks_.size());
   } else if (state_ == TrackingState::lost) {
     find_again();
   } else {
@@ -96,14 +99,18 @@ MonoResult MonoSlam::step(const MonoInput& input) {
 }
 
 void MonoSlam::initialise(const MonoInput& input) {
-  if (options_.target) {
-    const auto fix = find_target(input.grey, image_, camera_, *options_.target);
-    if (fix) start_on_target(input, *fix);
-  } else if (!input.depth.empty()) {
-    start_on_depth(input);
-  } else {
-    start_as_stated(input);
+  if (target_) {
+    target_sight_ = target_->look(input.grey, image_, camera_);
+    if (target_sight_ == TargetSight::found) start_on_target(input, target_->fix());
+    return;
   }
+  if (!input.depth.empty()) start_on_depth(input);
+  if (state_ == TrackingState::initialising && !waits_for_depth(input)) start_as_stated(input);
+}
+
+// One frame of depth may be taken too near, or of a bare wall.
+bool MonoSlam::waits_for_depth(const MonoInput& input) const {
+  return !input.depth.empty() && frame_ < options_.depth_patience;
 }
 
 void MonoSlam::start_on_target(const MonoInput& input, const TargetFix& fix) {
@@ -330,6 +337,7 @@ MonoResult MonoSlam::result(const MonoInput& input) const {
   out.frame = frame_;
   out.state = state_;
   out.scale = scale_;
+  out.target = target_sight_;
   out.inliers = inliers_;
   out.visible = static_cast<int>(looks_.size());
   if (state_ == TrackingState::initialising) return out;

@@ -61,6 +61,7 @@ struct MonoSlamOptions {
   int patience = 10;      // frames below that before the camera is lost
 
   std::optional<StartTarget> target;
+  int depth_patience = 30;  // frames whose depth shows too little, before the scale is stated
   std::optional<int> forget_start_target_at;  // frame, counted from the first one given
   double stated_distance = 1;  // m, of what is seen first, where there is no target and no depth
   std::uint64_t seed = 1;
@@ -109,6 +110,7 @@ struct MonoResult {
   TrackingState state = TrackingState::initialising;
   bool state_changed = false;
   ScaleFrom scale = ScaleFrom::nothing_yet;
+  TargetSight target = TargetSight::nothing;    // while initialising
   Pose world_from_camera;                       // while lost: the last one that was believed
   Matrix6d pose_covariance = Matrix6d::Zero();  // position [m], turn about the camera's axes [rad]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s in the world
@@ -146,6 +148,7 @@ class MonoSlam {
   // mono_slam.cpp: what state it is in.
   void initialise(const MonoInput& input);
   void start_on_target(const MonoInput& input, const TargetFix& fix);
+  bool waits_for_depth(const MonoInput& input) const;
   void start_on_depth(const MonoInput& input);
   void start_as_stated(const MonoInput& input);
   void start_at_origin();
@@ -190,6 +193,8 @@ class MonoSlam {
   Filter filter_;
   SearchImage image_;
   ImageTurnMeter turn_meter_;
+  std::optional<TargetWatch> target_;
+  TargetSight target_sight_ = TargetSight::nothing;
   std::vector<Landmark> landmarks_;  // oldest first, ids ascending
   std::vector<Look> looks_;          // of this frame
   TrackingState state_ = TrackingState::initialising;

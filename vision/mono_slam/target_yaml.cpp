@@ -1,8 +1,10 @@
 #include "vision/mono_slam/target_yaml.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include <Eigen/Geometry>
 #include <yaml-cpp/yaml.h>
 
 namespace armsreach::mono_slam {
@@ -38,6 +40,25 @@ std::optional<TargetFile::Mark> mark(const YAML::Node& node) {
   return out;
 }
 
+// Whether the marks lie apart and span an area: otherwise they determine no pose.
+bool span_an_area(const std::vector<TargetFile::Mark>& marks) {
+  constexpr double kLeastApart = 1e-3;  // m
+  constexpr double kLeastWidth = 0.05;  // of the longest distance
+  double longest = 0;
+  double largest = 0;  // area of two marks' parallelogram with the first
+  for (std::size_t a = 0; a < marks.size(); ++a) {
+    const Eigen::Vector3d from_first = marks[a].point_in_world - marks[0].point_in_world;
+    for (std::size_t b = a + 1; b < marks.size(); ++b) {
+      const double apart = (marks[b].point_in_world - marks[a].point_in_world).norm();
+      if (apart < kLeastApart) return false;
+      longest = std::max(longest, apart);
+      const Eigen::Vector3d other = marks[b].point_in_world - marks[0].point_in_world;
+      largest = std::max(largest, from_first.cross(other).norm());
+    }
+  }
+  return largest > kLeastWidth * longest * longest;
+}
+
 Result<TargetFile> read(const YAML::Node& root, const std::string& where) {
   TargetFile out;
   if (!root.IsMap()) return error("this is not a target", where);
@@ -60,6 +81,9 @@ Result<TargetFile> read(const YAML::Node& root, const std::string& where) {
       return error("point " + std::to_string(i + 1) + " has no patch and place", where);
     }
     out.marks.push_back(std::move(*read_mark));
+  }
+  if (!span_an_area(out.marks)) {
+    return error("the points lie on a line, or two of them in one place", where);
   }
   return out;
 }

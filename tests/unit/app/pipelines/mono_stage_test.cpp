@@ -1,5 +1,7 @@
 #include "app/pipelines/mono_stage.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
@@ -59,6 +61,52 @@ TEST(MonoStage, AStatedScaleIsSaidOnceAndThePictureIsReduced) {
   EXPECT_NE(std::get<FaultEvent>(first.events[0].body).message.find("0.7 m"), std::string::npos);
   EXPECT_TRUE(stage.process({frame(sensor, 1)}).events.empty());
   EXPECT_EQ(stage.statistics().json()["scale"], "stated");
+}
+
+std::vector<std::string> messages(const MonoStageOutput& output) {
+  std::vector<std::string> all;
+  for (const Event& event : output.events) {
+    if (const auto* fault = std::get_if<FaultEvent>(&event.body)) all.push_back(fault->message);
+  }
+  return all;
+}
+
+// Nothing within a depth camera's range, for a second: then the scale is stated, and said to be.
+TEST(MonoStage, DepthThatShowsNothingIsSaidAndTheScaleStated) {
+  auto sensor = std::make_shared<SensorInfo>(*plain_sensor());
+  sensor->depth_camera = sensor->color_camera;
+  MonoStage stage(*sensor, {}, std::nullopt);
+  MonoStageOutput output;
+  for (int i = 0; i <= 30; ++i) {
+    EXPECT_TRUE(output.events.empty()) << i;
+    auto blind = std::make_shared<Frame>(*frame(sensor, i));
+    blind->depth = cv::Mat(480, 640, CV_32F, cv::Scalar(std::nan("")));
+    output = stage.process({blind});
+  }
+  EXPECT_EQ(output.tracked->state, TrackingState::tracking);
+  ASSERT_EQ(messages(output).size(), 2U);
+  EXPECT_NE(messages(output)[0].find("depth frames show too little"), std::string::npos);
+  EXPECT_NE(messages(output)[1].find("stated, not measured"), std::string::npos);
+  EXPECT_GT(output.tracked->inliers, 0);
+}
+
+TEST(MonoStage, ATargetThatIsTooSmallIsAskedToComeCloserOnce) {
+  const auto sensor = plain_sensor();
+  MonoSetup setup;
+  setup.options.target.emplace();
+  setup.options.target->rectangle = mono_slam::StartTarget::Rectangle{0.21, 0.1485};
+  MonoStage stage(*sensor, setup, std::nullopt);
+  auto far = std::make_shared<Frame>(*frame(sensor, 0));
+  far->color = cv::Scalar(220, 220, 220);
+  cv::rectangle(far->color, cv::Rect(290, 220, 76, 54), cv::Scalar(20, 20, 20), cv::FILLED);
+  std::vector<std::string> told;
+  for (int i = 0; i < 5; ++i) {
+    const MonoStageOutput output = stage.process({far});
+    EXPECT_EQ(output.tracked->state, TrackingState::initialising);
+    for (const std::string& message : messages(output)) told.push_back(message);
+  }
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_NE(told[0].find("too small"), std::string::npos);
 }
 
 TEST(MonoStage, NothingIsMappedOnAHandThatShowsAGesture) {

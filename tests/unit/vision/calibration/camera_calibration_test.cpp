@@ -86,6 +86,11 @@ TEST(CameraCalibration, SaysWhatIsMissing) {
   ASSERT_FALSE(few.ok());
   EXPECT_THAT(few.error().message(), HasSubstr("photos"));
   EXPECT_THAT(few.error().message(), HasSubstr("too few"));
+  // One photo three times is one view.
+  const auto copies = calibrate_camera({two[0], two[0], two[0]}, {640, 480}, board,
+                                       Distortion::plumb_bob, "photos");
+  ASSERT_FALSE(copies.ok());
+  EXPECT_THAT(copies.error().message(), HasSubstr("1 different view"));
   const auto monoslam = calibrate_camera(two, {640, 480}, board, Distortion::monoslam, "photos");
   ASSERT_FALSE(monoslam.ok());
   EXPECT_THAT(monoslam.error().message(), HasSubstr("fisheye"));

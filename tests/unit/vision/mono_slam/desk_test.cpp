@@ -39,7 +39,7 @@ void expect_whole(const Summary& summary) {
   EXPECT_LT(quantile(summary.residuals, 0.5), 0.2);
   // The map is full after two seconds.
   for (std::size_t i = 60; i < summary.results.size(); ++i) {
-    EXPECT_GE(summary.results[i].visible, 28) << i;
+    EXPECT_GE(summary.results[i].visible, 30) << i;
     EXPECT_EQ(summary.results[i].state, TrackingState::tracking) << i;
   }
   EXPECT_GE(mapped(summary.results.back()), 25);

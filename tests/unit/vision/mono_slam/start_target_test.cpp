@@ -60,6 +60,53 @@ TEST(StartTarget, ABlackRectangleGivesThePose) {
   }
 }
 
+Pose in_front(double distance) {
+  return Pose(before_target(Vector6d::Zero()).rotation(), Vector3d(0.03, 0.02, -distance));
+}
+
+TargetSight look(TargetWatch* watch, const cv::Mat& grey, const Camera& camera) {
+  SearchImage image;
+  image.set(grey);
+  return watch->look(grey, image, camera);
+}
+
+TEST(TargetWatch, ASecondFrameConfirmsARectangle) {
+  const Camera camera = test::wide_angle();
+  StartTarget target;
+  target.rectangle = StartTarget::Rectangle{kWidth, kHeight};
+  TargetWatch watch(target);
+  const cv::Mat near = picture_of_rectangle(camera, in_front(0.5));
+  EXPECT_EQ(look(&watch, near, camera), TargetSight::once);
+  EXPECT_EQ(look(&watch, near, camera), TargetSight::found);
+  EXPECT_LT(position_sigma(watch.fix()), 0.05);
+  // What was seen before a frame without it confirms nothing.
+  EXPECT_EQ(look(&watch, test::speckles(320, 240, 3), camera), TargetSight::nothing);
+  EXPECT_EQ(look(&watch, near, camera), TargetSight::once);
+  // Nor does one that is elsewhere.
+  EXPECT_EQ(look(&watch, picture_of_rectangle(camera, in_front(0.8)), camera), TargetSight::once);
+}
+
+// Seen frontally and small, shifts to the side and turns look alike.
+TEST(TargetWatch, FromTooFarNothingStarts) {
+  const Camera camera = test::wide_angle();
+  StartTarget target;
+  target.rectangle = StartTarget::Rectangle{kWidth, kHeight};
+  TargetWatch watch(target);
+  const cv::Mat far = picture_of_rectangle(camera, in_front(1.2));
+  EXPECT_EQ(look(&watch, far, camera), TargetSight::once);
+  EXPECT_EQ(look(&watch, far, camera), TargetSight::too_far);
+  EXPECT_GT(position_sigma(watch.fix()), 0.05);
+}
+
+TEST(StartTarget, OfTwoRectanglesNoneIsTheTarget) {
+  const Camera camera = test::wide_angle();
+  const cv::Mat one = picture_of_rectangle(camera, in_front(0.8));
+  cv::Mat two;
+  cv::hconcat(one.colRange(80, 240), one.colRange(80, 240), two);
+  ASSERT_TRUE(find_rectangle(one, camera, {kWidth, kHeight}));
+  EXPECT_FALSE(find_rectangle(two, camera, {kWidth, kHeight}));
+}
+
 TEST(StartTarget, NoRectangleNoPose) {
   EXPECT_FALSE(find_rectangle(test::speckles(320, 240, 3), test::wide_angle(), {kWidth, kHeight}));
 }

@@ -15,7 +15,7 @@ Result<TargetFile> read(const std::string& text) {
 TEST(TargetYaml, MarksComeBackAsTheyWere) {
   TargetFile file;
   for (int i = 0; i < 4; ++i) {
-    file.marks.push_back({"patch" + std::to_string(i) + ".pgm", {0.1 * i, -0.07425, 0}});
+    file.marks.push_back({"patch" + std::to_string(i) + ".pgm", {0.1 * i, -0.07425 * (i % 2), 0}});
   }
   std::ostringstream out;
   write_target_yaml(out, file);
@@ -35,6 +35,24 @@ TEST(TargetYaml, ARectangleComesBackAsItWas) {
   ASSERT_TRUE(again) << again.error().message();
   ASSERT_TRUE(again->rectangle);
   EXPECT_EQ(again->rectangle->height, 0.1485);
+}
+
+TEST(TargetYaml, PointsThatDetermineNoPoseAreRefused) {
+  const auto points = [](const std::vector<std::string>& places) {
+    std::string text = "points:\n";
+    for (const std::string& place : places) {
+      text += "  - {patch: a.pgm, point_in_world: " + place + "}\n";
+    }
+    return text;
+  };
+  EXPECT_TRUE(read(points({"[0, 0, 0]", "[1, 0, 0]", "[0, 1, 0]", "[1, 1, 0]"})));
+  for (const auto& places : {std::vector<std::string>(4, "[0, 0, 0]"),
+                             {"[0, 0, 0]", "[1, 1, 0]", "[2, 2, 0]", "[3, 3, 0]"},
+                             {"[0, 0, 0]", "[1, 0, 0]", "[0, 1, 0]", "[0, 1, 0]"}}) {
+    const auto result = read(points(places));
+    ASSERT_FALSE(result) << places[3];
+    EXPECT_NE(result.error().what.find("on a line"), std::string::npos);
+  }
 }
 
 TEST(TargetYaml, WhatCannotBeIsAnErrorThatSaysSo) {
