@@ -81,7 +81,10 @@ cv::Mat cut_off(const cv::Mat& blob, const Palm& palm, const WristCut& cut) {
       if ((Eigen::Vector2d(x, y) - middle).dot(cut.to_arm) > cut.offset) row[x] = 0;
     }
   }
-  return hand;
+  // Of an arm bent back past the cut, too: what is left there hangs together with no palm.
+  cv::Mat parts;
+  cv::connectedComponents(hand, parts, 8, CV_32S);
+  return parts == parts.at<int>(palm.center);
 }
 
 }  // namespace armsreach::gesture
