@@ -75,6 +75,11 @@ double solidity_of(const HandShape& shape) {
   return static_cast<double>(pixels.size()) / std::max(1.0, cv::contourArea(hull));
 }
 
+std::optional<double> wrist_of(const HandShape& shape) {
+  if (!shape.to_arm) return std::nullopt;
+  return shape.wrist_width / (2 * shape.palm_radius);
+}
+
 // Gestures that are about as like a disc as a blob without fingers is.
 std::vector<bool> plain_gestures(const RingMatcher& matcher) {
   constexpr double kPlain = 0.89;  // mean g against a disc
@@ -258,10 +263,9 @@ HandObservation GestureDetector::observe(const HandBlob& blob, double image_area
     seen.score = match.g;
     seen.angle = own_angle(matcher_, reading.shape, likeliest.gesture, match.mirrored);
     if (blob.plausible) {
-      seen.evidence =
-          log_odds({likeliest.likeness, likeliest.margin, contact_of(blob),
-                    solidity_of(reading.shape), seen.area / image_area,
-                    reading.shape.to_arm.has_value(), plain_[likeliest.gesture], parted});
+      seen.evidence = log_odds({likeliest.likeness, likeliest.margin, contact_of(blob),
+                                solidity_of(reading.shape), seen.area / image_area,
+                                wrist_of(reading.shape), plain_[likeliest.gesture], parted});
       if (is_told(seen, likeliest.margin)) seen.gesture = seen.likeliest;
     }
   }

@@ -5,6 +5,8 @@
 // walls and furniture lie along the border, and have no arm.
 #pragma once
 
+#include <optional>
+
 namespace armsreach::gesture {
 
 struct HandEvidence {
@@ -13,7 +15,8 @@ struct HandEvidence {
   double contact = 0;   // of the blob's outline on the image's border, in roots of its area
   double solidity = 1;  // share of the hand, without its forearm, in its convex hull
   double share = 0.05;  // of the image that the hand covers
-  bool arm = false;     // a forearm was seen
+  // Breadth of the wrist, of the palm's; nothing where no forearm was seen.
+  std::optional<double> wrist;
   bool plain = false;   // the gesture has no finger stretched: most blobs look like it
   bool parted = false;  // from a wall of its own colour
 };

@@ -152,6 +152,7 @@ std::vector<HandShape> readings_of(const Cutout& one, const std::vector<cv::Poin
     const auto cut = find_wrist(one.mask, palm, arm_end);
     const cv::Mat hand = cut ? cut_off(one.mask, palm, *cut) : one.mask;
     readings.push_back(shape_of(one, hand, palm, cut, factor));
+    if (cut) readings.back().wrist_width = factor * width_at(filled, palm, *cut);
   };
   const Palm broadest = find_palm(distance, std::nullopt);
   if (contact.longest >= kLeastContact * broadest.radius) {

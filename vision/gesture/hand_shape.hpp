@@ -31,6 +31,7 @@ struct HandShape {
   Eigen::Vector2d palm{0, 0};         // middle of the largest circle in the palm
   double palm_radius = 0;
   std::optional<Eigen::Vector2d> to_arm;  // unit, from the palm; nothing where no arm was seen
+  double wrist_width = 0;                 // px, where the arm was cut off; 0 without one
 };
 
 // One blob, and the hands it may be: which end of an arm in the middle of the image is the hand is
