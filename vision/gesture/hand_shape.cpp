@@ -168,13 +168,16 @@ std::vector<HandShape> readings_of(const Cutout& one, const std::vector<cv::Poin
   };
   if (to_border(ends[1]) < to_border(ends[0])) std::swap(ends[0], ends[1]);
   const bool told_apart = to_border(ends[1]) > kNearer * to_border(ends[0]);
-  for (const Eigen::Vector2d& end : ends) {
-    if (told_apart && !readings.empty()) break;
+  const auto read_arm_at = [&](const Eigen::Vector2d& end) {
     const Palm palm = find_palm(distance, end);
     const Eigen::Vector2d middle(palm.center.x, palm.center.y);
     if ((end - middle).norm() > kHandReach * palm.radius) read_cut(end, palm);
-  }
-  if (readings.empty()) readings.push_back(shape_of(one, one.mask, broadest, std::nullopt, factor));
+  };
+  read_arm_at(ends[0]);
+  const bool expected = !readings.empty();
+  if (!expected || !told_apart) read_arm_at(ends[1]);
+  // At an end where no arm is expected it may as well be fingers.
+  if (!expected) readings.push_back(shape_of(one, one.mask, broadest, std::nullopt, factor));
   return readings;
 }
 

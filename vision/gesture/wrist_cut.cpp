@@ -104,7 +104,9 @@ cv::Mat cut_off(const cv::Mat& blob, const Palm& palm, const WristCut& cut) {
   // Of an arm bent back past the cut, too: what is left there hangs together with no palm.
   cv::Mat parts;
   cv::connectedComponents(hand, parts, 8, CV_32S);
-  return parts == parts.at<int>(palm.center);
+  const int palm_part = parts.at<int>(palm.center);
+  if (palm_part == 0) return hand;  // fingers make a ring, and its middle is no skin
+  return parts == palm_part;
 }
 
 }  // namespace armsreach::gesture
