@@ -8,14 +8,14 @@ namespace {
 
 // Logistic regression on photographs of eight people's gestures and on rooms without hands; each
 // person and room judged by what the others taught. Each is scaled by about its spread.
-constexpr double kConstant = 0.03;
-constexpr double kLikenessScale = 0.03, kLikenessMiddle = 0.93, kLikenessWeight = 1.15;
-constexpr double kMarginMiddle = 0.01, kMarginWeight = 0.79;  // of its logarithm
-constexpr double kContactScale = 0.35, kContactMiddle = 0.4, kContactWeight = -0.47;
-constexpr double kSolidityScale = 0.1, kSolidityMiddle = 0.85, kSolidityWeight = -0.73;
-constexpr double kShareMiddle = 0.06, kShareWeight = 1.16;  // of its logarithm
-constexpr double kArmWeight = 1.17, kPlainWeight = -1.68, kPartedWeight = -0.39;
-constexpr double kWristSpread = 0.09, kWristMiddle = 0.68, kWristWeight = -0.61;
+constexpr double kConstant = -0.16;
+constexpr double kLikenessScale = 0.03, kLikenessMiddle = 0.93, kLikenessWeight = 1.11;
+constexpr double kMarginMiddle = 0.01, kMarginWeight = 0.87;  // of its logarithm
+constexpr double kContactScale = 0.35, kContactMiddle = 0.4, kContactWeight = -0.59;
+constexpr double kSolidityScale = 0.1, kSolidityMiddle = 0.85, kSolidityWeight = -0.57;
+constexpr double kShareMiddle = 0.06, kShareWeight = 1.38;  // of its logarithm
+constexpr double kArmWeight = 1.24, kPlainWeight = -2.02, kPartedWeight = -0.43;
+constexpr double kWristSpread = 0.09, kWristMiddle = 0.68, kWristWeight = -0.68;
 // One gesture known, or one like no other, proves no hand; and least differences are chance.
 constexpr double kLeastMargin = 0.001, kMostMargin = 0.04;
 constexpr double kLeastShare = 1e-4;

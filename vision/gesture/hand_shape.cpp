@@ -174,10 +174,10 @@ std::vector<HandShape> readings_of(const Cutout& one, const std::vector<cv::Poin
     if ((end - middle).norm() > kHandReach * palm.radius) read_cut(end, palm);
   };
   read_arm_at(ends[0]);
+  // Where no arm is at the end that is expected, one at the other may as well be fingers.
   const bool expected = !readings.empty();
-  if (!expected || !told_apart) read_arm_at(ends[1]);
-  // At an end where no arm is expected it may as well be fingers.
   if (!expected) readings.push_back(shape_of(one, one.mask, broadest, std::nullopt, factor));
+  if (!expected || !told_apart) read_arm_at(ends[1]);
   return readings;
 }
 
