@@ -177,6 +177,7 @@ GestureDetectorOptions options_for(const TemplateSet& set) {
     options.sizes = {0.95, 1.0, 1.05};
     options.least_margin = gestures.size() >= kManyGestures ? 0.003 : 0.01;
     options.least_score = many_examples ? 0.92 : 0.85;
+    options.least_log_odds = -2;  // weighed by other gestures: only the worst is left out
   } else {
     options.several_nearest = true;
     options.least_score = 0.8;

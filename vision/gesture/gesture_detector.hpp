@@ -24,7 +24,7 @@ struct GestureDetectorOptions {
   std::vector<double> sizes{1.0};
   double least_score = 0.85;   // g of a gesture that is told (the paper's tau is 0.7)
   double least_margin = 0.01;  // by which its likeness exceeds every other gesture's
-  // Of hand_evidence.hpp, which weighs for a bank of few gestures; nothing: not asked.
+  // Of hand_evidence.hpp; nothing: not asked.
   std::optional<double> least_log_odds;
 };
 
