@@ -56,7 +56,8 @@ int make(const fs::path& out, const std::string& digits, const std::string& skin
                                    {.adaptation = gesture::SkinOptions::Adaptation::image});
   std::vector<BankExample> numerals = simulated_numerals(kNumeralPeople);
   for (const BankExample& one : photographed_numerals(digits, segmenter)) numerals.push_back(one);
-  const bool written = write(out / "wearable", bank_of(simulated_wearable(kWearablePeople), gesture::linear_rings())) &&
+  const bool written = write(out / "wearable", bank_of(simulated_wearable(kWearablePeople),
+                                                       gesture::linear_rings())) &&
                        write(out / "asl-digits", bank_of(numerals, gesture::fine_rings()));
   return written ? 0 : 3;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <set>
 #include <utility>
@@ -66,14 +67,55 @@ double contact_of(const HandBlob& blob) {
   return blob.contact / std::sqrt(std::max(1.0, cv::contourArea(blob.outline)));
 }
 
-// Of the skin in an image, what is neither this blob nor another hand on its arm.
-double clutter_around(std::size_t index, const std::vector<HandBlob>& blobs, const cv::Mat& skin) {
-  double hands = 0;
-  for (std::size_t i = 0; i < blobs.size(); ++i) {
-    const bool other_hand = blobs[i].plausible && blobs[i].readings[0].to_arm.has_value();
-    if (i == index || other_hand) hands += cv::contourArea(blobs[i].outline);
+double solidity_of(const HandShape& shape) {
+  std::vector<cv::Point> pixels, hull;
+  cv::findNonZero(shape.mask, pixels);
+  if (pixels.empty()) return 1;
+  cv::convexHull(pixels, hull);
+  return static_cast<double>(pixels.size()) / std::max(1.0, cv::contourArea(hull));
+}
+
+std::optional<double> wrist_of(const HandShape& shape) {
+  if (!shape.to_arm) return std::nullopt;
+  return shape.wrist_width / (2 * shape.palm_radius);
+}
+
+// Gestures that are about as like a disc as a blob without fingers is.
+std::vector<bool> plain_gestures(const RingMatcher& matcher) {
+  constexpr double kPlain = 0.89;  // mean g against a disc
+  const TemplateSet& set = matcher.set();
+  const double disc_radius = 1 / std::sqrt(std::numbers::pi);
+  RingSignature disc;
+  for (int ring = 0; ring < set.layout.rings(); ++ring)
+    if (double{set.layout.radii[static_cast<std::size_t>(ring)]} < disc_radius)
+      for (int angle = 0; angle < set.layout.samples; ++angle) disc.set(ring, angle);
+  std::vector<bool> plain;
+  for (const std::string& gesture : matcher.gestures()) {
+    double sum = 0;
+    int count = 0;
+    for (const GestureTemplate& one : set.templates) {
+      if (one.gesture != gesture) continue;
+      sum += similarity(one.signature, disc, 0, set.layout);
+      ++count;
+    }
+    plain.push_back(sum > kPlain * count);
   }
-  return std::max(0.0, 1 - hands / std::max(1, cv::countNonZero(skin)));
+  return plain;
+}
+
+double most_evidence(const HandObservations& hands) {
+  double most = std::numeric_limits<double>::lowest();
+  for (const HandObservation& hand : hands) most = std::max(most, hand.evidence);
+  return most;
+}
+
+bool any_told(const HandObservations& hands) {
+  return std::any_of(hands.begin(), hands.end(),
+                     [](const HandObservation& hand) { return hand.gesture.has_value(); });
+}
+
+HandObservations likelier(HandObservations one, HandObservations other) {
+  return most_evidence(other) > most_evidence(one) ? other : one;
 }
 
 // Sampling at eight angles within a step averages out which side of a pixel's edge samples fall on.
@@ -135,10 +177,11 @@ GestureDetectorOptions options_for(const TemplateSet& set) {
     options.sizes = {0.95, 1.0, 1.05};
     options.least_margin = gestures.size() >= kManyGestures ? 0.003 : 0.01;
     options.least_score = many_examples ? 0.92 : 0.85;
+    options.least_log_odds = -2;  // weighed by other gestures: only the worst is left out
   } else {
     options.several_nearest = true;
     options.least_score = 0.8;
-    options.least_margin = 0.003;
+    options.least_margin = 0;
     options.least_log_odds = 0;
   }
   return options;
@@ -195,9 +238,13 @@ std::vector<HandBlob> find_hands(const HandFinder& finder, const cv::Mat& skin,
 }
 
 GestureDetector::GestureDetector(TemplateSet set, const GestureDetectorOptions& options)
-    : options_(options), finder_(options.hands), matcher_(std::move(set)) {}
+    : options_(options),
+      finder_(options.hands),
+      matcher_(std::move(set)),
+      plain_(plain_gestures(matcher_)) {}
 
-HandObservation GestureDetector::observe(const HandBlob& blob, double clutter) const {
+HandObservation GestureDetector::observe(const HandBlob& blob, double image_area,
+                                         bool parted) const {
   Reading reading{blob.readings[0], {}, {}};
   for (const HandShape& one : blob.readings) {
     Reading next = read(matcher_, one, options_);
@@ -216,8 +263,12 @@ HandObservation GestureDetector::observe(const HandBlob& blob, double clutter) c
     seen.likeliest = matcher_.gestures()[likeliest.gesture];
     seen.score = match.g;
     seen.angle = own_angle(matcher_, reading.shape, likeliest.gesture, match.mirrored);
-    const HandEvidence evidence{likeliest.likeness, likeliest.margin, contact_of(blob), clutter};
-    if (blob.plausible && is_told(match, evidence)) seen.gesture = seen.likeliest;
+    if (blob.plausible) {
+      seen.evidence = log_odds({likeliest.likeness, likeliest.margin, contact_of(blob),
+                                solidity_of(reading.shape), seen.area / image_area,
+                                wrist_of(reading.shape), plain_[likeliest.gesture], parted});
+      if (is_told(seen, likeliest.margin)) seen.gesture = seen.likeliest;
+    }
   }
   if (seen.likeliest == "point") {
     const PointingFinger finger = pointing_finger(reading.shape, seen.angle);
@@ -229,27 +280,30 @@ HandObservation GestureDetector::observe(const HandBlob& blob, double clutter) c
   return seen;
 }
 
-bool GestureDetector::is_told(const RingMatch& match, const HandEvidence& evidence) const {
-  if (match.g < options_.least_score || evidence.margin < options_.least_margin) return false;
-  return !options_.least_log_odds || log_odds(evidence) >= *options_.least_log_odds;
+bool GestureDetector::is_told(const HandObservation& seen, double margin) const {
+  if (seen.score < options_.least_score || margin < options_.least_margin) return false;
+  return !options_.least_log_odds || seen.evidence >= *options_.least_log_odds;
 }
 
-HandObservations GestureDetector::observe_all(const std::vector<HandBlob>& blobs,
-                                              const cv::Mat& skin) const {
+HandObservations GestureDetector::detect_in(const cv::Mat& skin, bool parted) const {
   HandObservations hands;
-  for (std::size_t i = 0; i < blobs.size(); ++i) {
-    hands.push_back(observe(blobs[i], clutter_around(i, blobs, skin)));
-    hands.back().hand = static_cast<int>(i);
+  for (const HandBlob& blob : finder_.find(skin)) {
+    hands.push_back(observe(blob, static_cast<double>(skin.total()), parted));
+    hands.back().hand = static_cast<int>(hands.size()) - 1;
   }
   return hands;
 }
 
 HandObservations GestureDetector::detect(const cv::Mat& skin) const {
-  return observe_all(finder_.find(skin), skin);
+  return detect_in(skin, false);
 }
 
 HandObservations GestureDetector::detect(const cv::Mat& skin, const cv::Mat& bgr) const {
-  return observe_all(find_hands(finder_, skin, bgr), skin);
+  const cv::Mat lit = without_shadow(bgr, skin);
+  HandObservations hands = detect_in(lit, false);
+  if (lit.data != skin.data) hands = likelier(std::move(hands), detect_in(skin, false));
+  if (hands.empty() || any_told(hands)) return hands;
+  return likelier(std::move(hands), detect_in(without_walls(bgr, lit), true));
 }
 
 }  // namespace armsreach::gesture

@@ -24,7 +24,7 @@ struct GestureDetectorOptions {
   std::vector<double> sizes{1.0};
   double least_score = 0.85;   // g of a gesture that is told (the paper's tau is 0.7)
   double least_margin = 0.01;  // by which its likeness exceeds every other gesture's
-  // Of hand_evidence.hpp, which weighs for banks of few gestures; nothing: not asked.
+  // Of hand_evidence.hpp; nothing: not asked.
   std::optional<double> least_log_odds;
 };
 
@@ -65,19 +65,20 @@ class GestureDetector {
   const RingMatcher& matcher() const { return matcher_; }
   // `skin`: CV_8UC1, 0 off the skin.
   HandObservations detect(const cv::Mat& skin) const;
-  // The same, and where the largest blob is no hand by its shape, once more without the walls that
-  // `bgr` (CV_8UC3, of the mask's size) shows behind it.
+  // The same in what `bgr` (CV_8UC3, of the mask's size) shows the skin may be: with the shadow
+  // that a hand casts or without, and where no gesture is told, without walls of skin's colour;
+  // whichever is likeliest to be hands.
   HandObservations detect(const cv::Mat& skin, const cv::Mat& bgr) const;
 
  private:
-  // `clutter`: see HandEvidence.
-  HandObservation observe(const HandBlob& blob, double clutter) const;
-  bool is_told(const RingMatch& match, const HandEvidence& evidence) const;
-  HandObservations observe_all(const std::vector<HandBlob>& blobs, const cv::Mat& skin) const;
+  HandObservations detect_in(const cv::Mat& skin, bool parted) const;
+  HandObservation observe(const HandBlob& blob, double image_area, bool parted) const;
+  bool is_told(const HandObservation& seen, double margin) const;
 
   GestureDetectorOptions options_;
   HandFinder finder_;
   RingMatcher matcher_;
+  std::vector<bool> plain_;  // of each gesture; see HandEvidence
 };
 
 }  // namespace armsreach::gesture

@@ -1,9 +1,11 @@
 // Whether what looks like a gesture is one, and is told.
 //
 // The detector's paper tells a gesture where g exceeds 0.7. Cupboards reach 0.95, so how like a
-// gesture it is counts together with how far the next gesture is behind, and with what the blob is
-// among the image's skin: walls and furniture lie along the border and in many pieces.
+// gesture it is counts together with how far the next gesture is behind, and with what the blob is:
+// walls and furniture lie along the border, and have no arm.
 #pragma once
+
+#include <optional>
 
 namespace armsreach::gesture {
 
@@ -11,7 +13,12 @@ struct HandEvidence {
   double likeness = 0;  // of the best gesture, -1..1
   double margin = 0;    // by which it exceeds the next one's
   double contact = 0;   // of the blob's outline on the image's border, in roots of its area
-  double clutter = 0;   // share of the image's skin outside the hands
+  double solidity = 1;  // share of the hand, without its forearm, in its convex hull
+  double share = 0.05;  // of the image that the hand covers
+  // Breadth of the wrist, of the palm's; nothing where no forearm was seen.
+  std::optional<double> wrist;
+  bool plain = false;   // the gesture has no finger stretched: most blobs look like it
+  bool parted = false;  // from a wall of its own colour
 };
 
 // Log odds, up to a constant, that it is a hand making that gesture.

@@ -24,7 +24,8 @@ struct HandObservation {
   Eigen::Vector2d center{0, 0};     // px, of the hand without its forearm
   Eigen::Vector2d fingertip{0, 0};  // px, the farthest point along that axis
   double area = 0;                  // px^2, without the forearm
-  std::vector<cv::Point> outline;   // px, closed, with the forearm
+  double evidence = -100;  // log odds that it is a hand making that gesture, see hand_evidence
+  std::vector<cv::Point> outline;  // px, closed, with the forearm
 };
 using HandObservations = std::vector<HandObservation>;
 

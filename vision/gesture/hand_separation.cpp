@@ -13,10 +13,9 @@
 namespace armsreach::gesture {
 namespace {
 
-constexpr int kWidth = 320;       // px, at which colours are parted
+constexpr int kWidth = 160;       // px, at which colours are parted
 constexpr int kClasses = 3;       // wall, hand, and the shadow or the arm
 constexpr int kRounds = 12;       // of Lloyd's iteration; it has settled after about eight
-constexpr int kSampleStep = 2;    // px
 constexpr float kLuma = 0.4F;     // brightness counts less than colour: light falls off on a wall
 constexpr double kContact = 1.3;  // of a wall, in roots of its area; see HandFinderOptions
 constexpr std::size_t kFewest = 60;  // samples
@@ -81,8 +80,8 @@ Centers part(const std::vector<Color>& colors) {
 
 std::vector<Color> sampled(const cv::Mat& bgr, const cv::Mat& mask) {
   std::vector<Color> colors;
-  for (int y = 0; y < mask.rows; y += kSampleStep)
-    for (int x = 0; x < mask.cols; x += kSampleStep)
+  for (int y = 0; y < mask.rows; ++y)
+    for (int x = 0; x < mask.cols; ++x)
       if (mask.at<std::uint8_t>(y, x) != 0) colors.push_back(color_of(bgr.at<cv::Vec3b>(y, x)));
   return colors;
 }
@@ -116,13 +115,13 @@ cv::Mat without_walls(const cv::Mat& bgr, const cv::Mat& skin) {
   for (std::size_t k = 0; k < kClasses; ++k)
     if (contacts[k] < kContact * std::sqrt(areas[k]))
       kept.setTo(255, classes == static_cast<int>(k));
-  cv::blur(kept, kept, {5, 5});
+  cv::blur(kept, kept, {3, 3});
   kept = kept > 127;
   // Shadows leave thin lines.
   cv::morphologyEx(kept, kept, cv::MORPH_OPEN,
-                   cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5}));
-  cv::resize(kept, kept, bgr.size(), 0, 0, cv::INTER_NEAREST);
-  return kept;
+                   cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3}));
+  cv::resize(kept, kept, bgr.size(), 0, 0, cv::INTER_LINEAR);
+  return (kept > 127) & (skin != 0);
 }
 
 }  // namespace armsreach::gesture

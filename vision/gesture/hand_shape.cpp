@@ -152,6 +152,7 @@ std::vector<HandShape> readings_of(const Cutout& one, const std::vector<cv::Poin
     const auto cut = find_wrist(one.mask, palm, arm_end);
     const cv::Mat hand = cut ? cut_off(one.mask, palm, *cut) : one.mask;
     readings.push_back(shape_of(one, hand, palm, cut, factor));
+    if (cut) readings.back().wrist_width = factor * width_at(filled, palm, *cut);
   };
   const Palm broadest = find_palm(distance, std::nullopt);
   if (contact.longest >= kLeastContact * broadest.radius) {
@@ -167,13 +168,16 @@ std::vector<HandShape> readings_of(const Cutout& one, const std::vector<cv::Poin
   };
   if (to_border(ends[1]) < to_border(ends[0])) std::swap(ends[0], ends[1]);
   const bool told_apart = to_border(ends[1]) > kNearer * to_border(ends[0]);
-  for (const Eigen::Vector2d& end : ends) {
-    if (told_apart && end == ends[1]) break;
+  const auto read_arm_at = [&](const Eigen::Vector2d& end) {
     const Palm palm = find_palm(distance, end);
     const Eigen::Vector2d middle(palm.center.x, palm.center.y);
     if ((end - middle).norm() > kHandReach * palm.radius) read_cut(end, palm);
-  }
-  if (readings.empty()) readings.push_back(shape_of(one, one.mask, broadest, std::nullopt, factor));
+  };
+  read_arm_at(ends[0]);
+  // Where no arm is at the end that is expected, one at the other may as well be fingers.
+  const bool expected = !readings.empty();
+  if (!expected) readings.push_back(shape_of(one, one.mask, broadest, std::nullopt, factor));
+  if (!expected || !told_apart) read_arm_at(ends[1]);
   return readings;
 }
 
@@ -210,9 +214,8 @@ std::vector<HandBlob> HandFinder::find(const cv::Mat& mask) const {
     const HandShape& first = blob.readings[0];
     const double hand_share = first.area / static_cast<double>(mask.total());
     const double most = contact.pixels > 0 ? options_.most_area : options_.most_area_inside;
-    const double least = first.to_arm ? options_.least_area : options_.least_area_alone;
     blob.plausible =
-        hand_share >= least && hand_share <= most &&
+        hand_share >= options_.least_area && hand_share <= most &&
         blob.contact < options_.most_contact * std::sqrt(cv::contourArea(blob.outline)) * factor;
     for (cv::Point& point : blob.outline)
       point = (point + one.origin) * factor + cv::Point(factor / 2, factor / 2);

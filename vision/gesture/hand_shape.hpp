@@ -11,14 +11,13 @@ namespace armsreach::gesture {
 
 struct HandFinderOptions {
   int most_hands = 2;
-  double least_area = 0.01;  // of a hand without forearm, of the image
-  // Of one without an arm, or that had to be parted from a wall: cupboards and screens look like
-  // it.
+  double least_area = 0.008;  // of a hand without forearm, of the image
+  // Of one that had to be parted from a wall.
   double least_area_alone = 0.05;
   double most_area = 0.45;
   // How much of its outline a blob has on the image's border, in units of the root of its own
   // area: a forearm that comes into the image is narrower, a wall broader.
-  double most_contact = 1.3;
+  double most_contact = 1.8;
   double most_area_inside = 0.6;  // of a hand that keeps clear of the border, as in a cut-out image
 };
 
@@ -32,6 +31,7 @@ struct HandShape {
   Eigen::Vector2d palm{0, 0};         // middle of the largest circle in the palm
   double palm_radius = 0;
   std::optional<Eigen::Vector2d> to_arm;  // unit, from the palm; nothing where no arm was seen
+  double wrist_width = 0;                 // px, where the arm was cut off; 0 without one
 };
 
 // One blob, and the hands it may be: which end of an arm in the middle of the image is the hand is

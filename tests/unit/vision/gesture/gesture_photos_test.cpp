@@ -65,8 +65,8 @@ TEST(GesturePhotos, NumeralsOfUnseenPeople) {
 }
 
 // People whose number divides by five are in no template. Skin and all, as the program does it.
-// Measured: right 0.970, wrong 0.008; over five such parts of the people, each with templates of
-// the others, about 0.957 and 0.027 (before least_score rose to 0.92).
+// Measured: right 0.955, wrong 0.023. Over five such parts of the people, each with templates of the
+// others, an earlier bank made likewise reached about 0.957 and 0.027.
 TEST(GesturePhotos, PhotographedNumeralsOfUnseenPeople) {
   ARMSREACH_RECORDING_OR_SKIP(digits, "hands/digits");
   const std::string path = ARMSREACH_SOURCE_DIR "/assets/skin/default.yaml";
@@ -96,30 +96,50 @@ SkinSegmenter own_segmenter() {
   return SkinSegmenter(*model, {.adaptation = SkinOptions::Adaptation::image});
 }
 
+// Before shirts, and before a wall that is not of skin's colour.
+bool is_plain(const std::string& name) {
+  return name.starts_with("2_") || name.starts_with("5_") || name.find("id05") != std::string::npos;
+}
+
 // Five people before walls, shirts and wood, with bare arms; none is in the bank, whose hands are
 // all simulated.
 TEST(GesturePhotos, FiveGesturesOfUnseenPeopleFromColour) {
   ARMSREACH_RECORDING_OR_SKIP(photos, "hands/gestures");
   const GestureDetector detector = own_detector("wearable");
   SkinSegmenter segmenter = own_segmenter();
-  int all = 0, likeliest = 0, right = 0, wrong = 0;
+  Rates every, plain;
+  int likeliest = 0;
   for (const std::string gesture : {"point", "L", "open", "fist", "grasp"}) {
     for (const auto& entry : fs::directory_iterator(photos / gesture)) {
       if (entry.path().extension() != ".jpg") continue;
       const cv::Mat bgr = cv::imread(entry.path().string());
       const auto hands = detector.detect(segmenter.segment(bgr), bgr);
-      ++all;
-      if (hands.empty()) continue;
-      likeliest += hands[0].likeliest == gesture ? 1 : 0;
-      if (hands[0].gesture) ++(*hands[0].gesture == gesture ? right : wrong);
+      const bool is_likeliest = !hands.empty() && hands[0].likeliest == gesture;
+      const bool right = is_likeliest && hands[0].gesture;
+      const bool wrong = std::any_of(hands.begin(), hands.end(), [&](const auto& hand) {
+        return hand.gesture && *hand.gesture != gesture;
+      });
+      likeliest += is_likeliest ? 1 : 0;
+      const bool counts_as_plain = gesture != "grasp" && is_plain(entry.path().filename().string());
+      for (Rates* rates : {&every, counts_as_plain ? &plain : nullptr}) {
+        if (rates == nullptr) continue;
+        ++rates->all;
+        rates->right += right ? 1 : 0;
+        rates->wrong += wrong ? 1 : 0;
+      }
     }
   }
-  std::printf("%d photos: likeliest right %d, told right %d, wrong %d\n", all, likeliest, right,
-              wrong);
-  // Some photos below what is reached: 0.89, 0.76 and 0.05. The targets are 0.85 and 0.02.
-  EXPECT_GE(likeliest, 0.86 * all);
-  EXPECT_GE(right, 0.72 * all);
-  EXPECT_LE(wrong, 0.07 * all);
+  std::printf("%d photos: likeliest right %d, told right %d, wrong %d\n", every.all, likeliest,
+              every.right, every.wrong);
+  std::printf("%d on plain backgrounds: told right %d, wrong %d\n", plain.all, plain.right,
+              plain.wrong);
+  // Two or three photos below what is reached: 0.91 likeliest, 0.80 told right and 0.035 wrong (three
+  // of the four are one person's pinch that is a fist in outline). The targets are 0.85 and 0.02.
+  EXPECT_GE(likeliest, 0.89 * every.all);
+  EXPECT_GE(every.right, 0.77 * every.all);
+  EXPECT_LE(every.wrong, 0.05 * every.all);
+  EXPECT_GE(plain.right, 0.85 * plain.all);  // the target is 0.95
+  EXPECT_LE(plain.wrong, 0.05 * plain.all);
 }
 
 struct Room {
@@ -152,8 +172,8 @@ TEST_P(RoomsWithoutHands, AreSilent) {
 INSTANTIATE_TEST_SUITE_P(GesturePhotos, RoomsWithoutHands,
                          testing::Values(Room{"rgbd/redkitchen/rgb", 0.94},
                                          Room{"rgbd/livingroom/rgb", 0.98},
-                                         Room{"rgbd/cabinet/rgb", 0.88},
-                                         Room{"objects/lmo/rgb", 0.94}));
+                                         Room{"rgbd/cabinet/rgb", 0.96},
+                                         Room{"objects/lmo/rgb", 0.96}));
 
 }  // namespace
 }  // namespace armsreach::gesture

@@ -5,23 +5,44 @@
 namespace armsreach::gesture {
 namespace {
 
-constexpr HandEvidence kClearHand{0.96, 0.03, 0.2, 0.05};
-
-TEST(HandEvidence, AClearHandIsLikely) { EXPECT_GT(log_odds(kClearHand), 1); }
-
-TEST(HandEvidence, EachSignAgainstAHandCounts) {
-  HandEvidence unlike = kClearHand, close = kClearHand, wall = kClearHand, cluttered = kClearHand;
-  unlike.likeness = 0.85;
-  close.margin = 0.001;
-  wall.contact = 1.2;
-  cluttered.clutter = 0.6;
-  for (const HandEvidence& worse : {unlike, close, wall, cluttered})
-    EXPECT_LT(log_odds(worse), log_odds(kClearHand) - 1);
+HandEvidence hand() {
+  HandEvidence evidence;
+  evidence.likeness = 0.95;
+  evidence.margin = 0.02;
+  evidence.contact = 0.4;
+  evidence.solidity = 0.8;
+  evidence.wrist = 0.68;
+  return evidence;
 }
 
-TEST(HandEvidence, OneGestureAloneProvesNoHand) {
-  // Where a single gesture is known, nothing is near it; that must not make a wall a hand.
-  EXPECT_LT(log_odds({0.88, 1, 1.2, 0.6}), 0);
+TEST(HandEvidence, AHandOnItsArmIsTold) { EXPECT_GT(log_odds(hand()), 0); }
+
+TEST(HandEvidence, EachSignOfAnotherThingCounts) {
+  const auto without = [](auto change) {
+    HandEvidence other = hand();
+    change(other);
+    return log_odds(other);
+  };
+  const double told = log_odds(hand());
+  EXPECT_LT(without([](auto& e) { e.likeness = 0.9; }), told);
+  EXPECT_LT(without([](auto& e) { e.margin = 0.002; }), told);
+  EXPECT_LT(without([](auto& e) { e.contact = 1.2; }), told);
+  EXPECT_LT(without([](auto& e) { e.solidity = 0.95; }), told);
+  EXPECT_LT(without([](auto& e) { e.share = 0.01; }), told);
+  EXPECT_LT(without([](auto& e) { e.wrist = 1.2; }), told);
+  EXPECT_LT(without([](auto& e) { e.wrist.reset(); }), told);
+  EXPECT_LT(without([](auto& e) { e.plain = true; }), told);
+  EXPECT_LT(without([](auto& e) { e.parted = true; }), told);
+}
+
+// With one gesture known there is no other to be less like, and a margin of nothing is finite.
+TEST(HandEvidence, MarginsProveSoMuchAndNoMore) {
+  HandEvidence far = hand(), farther = hand(), none = hand();
+  far.margin = 0.05;
+  farther.margin = 1;
+  none.margin = 0;
+  EXPECT_EQ(log_odds(far), log_odds(farther));
+  EXPECT_GT(log_odds(none), log_odds(hand()) - 5);
 }
 
 }  // namespace
