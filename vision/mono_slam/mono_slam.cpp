@@ -295,7 +295,7 @@ void MonoSlam::find_again() {
     group.push_back(&look);
     measurements.push_back({look.prediction, *look.measured});
   }
-  take(group, measurements);
+  take(group, measurements, options_.least_inliers);
   inliers_ = count_inliers();
   poor_frames_ = 0;
   state_ = TrackingState::relocalised;

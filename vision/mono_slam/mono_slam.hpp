@@ -167,7 +167,8 @@ class MonoSlam {
   void measure(double deviations);
   std::optional<Match> look_for(Landmark* landmark, const Prediction& prediction,
                                 double deviations) const;
-  int take(const std::vector<Look*>& group, const std::vector<Measurement>& measurements);
+  int take(const std::vector<Look*>& group, const std::vector<Measurement>& measurements,
+           int least);
   void weigh_particles();
 
   // map_management.cpp: which points there are.
