@@ -72,6 +72,7 @@ MonoStageOutput MonoStage::process(const MonoStageInput& input) {
   tracked->state = result->state;
   tracked->camera = camera_;
   tracked->world_from_camera = result->world_from_camera * color_from_depth_;
+  tracked->pose_seen = result->pose_seen;
   tracked->compared = result->visible;
   tracked->inliers = result->inliers;
   double squares = 0;
