@@ -28,13 +28,13 @@ mono_slam::MonoSlamOptions carried(mono_slam::MonoSlamOptions options, bool by_g
   return options;
 }
 
+}  // namespace
+
 Camera reduced(const Camera& camera) {
   if (camera.width <= kWidth) return camera;
   return resized(camera, kWidth,
                  cvRound(static_cast<double>(kWidth) * camera.height / camera.width));
 }
-
-}  // namespace
 
 Eigen::Vector3d up_in_world(const MonoSetup& setup) {
   bool on_target = setup.options.target.has_value();

@@ -322,6 +322,7 @@ void MonoSlam::forget_target() {
 
 SparseMap MonoSlam::map() const {
   SparseMap out;
+  out.camera = camera_;
   std::vector<PointId> ids;
   for (const Landmark& landmark : landmarks_) {
     const Point& point = filter_.point(landmark.id);
