@@ -182,6 +182,11 @@ Result<PipelineOptions> pipeline_options(const RunOptions& options, const Config
   if (parts.mono) {
     auto mono = make_mono_setup(config.mono_slam, target_beside_source(options), options.seed);
     if (!mono) return mono.error();
+    if (world.sparse_map) {
+      const Camera camera = reduced(*sensor->color_camera);
+      if (auto status = check_same_camera(*world.sparse_map, camera, options.session); !status)
+        return status.error();
+    }
     out.mono = *std::move(mono);
     out.mono->map = world.sparse_map;
   }

@@ -136,7 +136,7 @@ void Composer::add_tracking(const TrackedFrame& tracked, render::Scene* scene) {
   scene->tracking_inliers = tracked.inliers;
   scene->inliers = tracked.weights;
   scene->up_in_world = tracked.up_in_world;
-  if (scene->pose_known) {
+  if (scene->pose_known && tracked.pose_seen) {
     const Eigen::Vector3f here = tracked.world_from_camera.translation().cast<float>();
     if (camera_trail_.empty() || (here - camera_trail_.back()).norm() > kTrailStep) {
       camera_trail_.push_back(here);

@@ -13,7 +13,7 @@ std::optional<JournalEntry> entry_from_tracked(const TrackedFramePtr& tracked) {
   entry.arrival = tracked->frame->arrival;
   entry.world_from_camera = tracked->world_from_camera;
   entry.state = tracked->state;
-  entry.pose_known = pose_known(*tracked);
+  entry.pose_known = pose_known(*tracked) && tracked->pose_seen;
   entry.rms = tracked->rms;
   entry.inliers = tracked->inliers;
   return entry;

@@ -18,7 +18,7 @@ struct JournalEntry {
   std::int64_t arrival = 0;  // steady-clock ns
   Pose world_from_camera;
   TrackingState state = TrackingState::lost;
-  bool pose_known = false;
+  bool pose_known = false;  // and seen in this frame
   double rms = 0;
   int inliers = 0;
 };

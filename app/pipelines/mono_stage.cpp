@@ -28,13 +28,13 @@ mono_slam::MonoSlamOptions carried(mono_slam::MonoSlamOptions options, bool by_g
   return options;
 }
 
+}  // namespace
+
 Camera reduced(const Camera& camera) {
   if (camera.width <= kWidth) return camera;
   return resized(camera, kWidth,
                  cvRound(static_cast<double>(kWidth) * camera.height / camera.width));
 }
-
-}  // namespace
 
 Eigen::Vector3d up_in_world(const MonoSetup& setup) {
   bool on_target = setup.options.target.has_value();
@@ -72,6 +72,7 @@ MonoStageOutput MonoStage::process(const MonoStageInput& input) {
   tracked->state = result->state;
   tracked->camera = camera_;
   tracked->world_from_camera = result->world_from_camera * color_from_depth_;
+  tracked->pose_seen = result->pose_seen;
   tracked->compared = result->visible;
   tracked->inliers = result->inliers;
   double squares = 0;

@@ -23,6 +23,9 @@ struct MonoSetup {
 // upright, and so is whatever is seen first.
 Eigen::Vector3d up_in_world(const MonoSetup& setup);
 
+// The camera as the filter, and with it a saved map, has it.
+Camera reduced(const Camera& camera);
+
 struct MonoStageInput {
   FramePtr frame;
   HandsStatePtr hands = nullptr;        // of an earlier frame: nothing is mapped on them

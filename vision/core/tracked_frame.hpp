@@ -25,6 +25,9 @@ struct TrackedFrame {
   FramePtr frame;
   Pose world_from_camera;
   TrackingState state = TrackingState::initialising;
+  // A frame may show too little to say where the camera is before it counts as lost: its pose
+  // follows from the frames before, good enough to draw by, but nothing that was measured.
+  bool pose_seen = true;
 
   // Quality of the alignment; zero where there was none.
   double rms = 0;               // of the weighted residuals, each divided by its nominal noise

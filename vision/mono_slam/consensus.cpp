@@ -74,7 +74,8 @@ std::vector<int> consensus(const JointInnovation& innovation, double pixel_sigma
     std::vector<int> agreeing = supporters(innovation, i, options.pixel_tolerance);
     if (agreeing.size() > best.size()) best = std::move(agreeing);
   }
-  if (best.size() < 2) return best;
+  // One that disagrees with all others is as likely wrong as they are.
+  if (best.size() < 2) return count == 1 ? best : std::vector<int>();
   return fitting(innovation, best, pixel_sigma, options);
 }
 

@@ -112,7 +112,7 @@ MonoSlam::InverseDepthPrior MonoSlam::inverse_depth_prior(const Vector2d& pixel)
   constexpr double kSpread = 0.5;  // of the mean: steps are anywhere
   constexpr double kLeast = 0.2;   // 1/m
   constexpr int kLeastNeighbours = 4;
-  if (leapt_) {
+  if (leapt_at_) {
     // Nothing here ties the map's scale to what was mapped before, but that it is the same room.
     constexpr double kSameRoom = 0.3;
     const double around = background_inverse_distance();

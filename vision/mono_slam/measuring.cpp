@@ -65,13 +65,14 @@ std::optional<Match> MonoSlam::look_for(Landmark* landmark, const Prediction& pr
   return match;
 }
 
-// Takes what agrees into the filter if that is enough; the number that agrees.
-int MonoSlam::take(const std::vector<Look*>& group, const std::vector<Measurement>& measurements) {
+// Takes what agrees into the filter if that is `least` or more; the number that agrees.
+int MonoSlam::take(const std::vector<Look*>& group, const std::vector<Measurement>& measurements,
+                   int least) {
   if (measurements.empty()) return 0;
   const std::vector<int> agreeing =
       consensus(filter_.innovation(measurements), options_.pixel_sigma, options_.consensus);
   for (Look* look : group) look->outcome = Outcome::rejected;
-  if (static_cast<int>(agreeing.size()) < options_.least_inliers) return 0;
+  if (static_cast<int>(agreeing.size()) < least) return 0;
   for (const int i : agreeing) group[static_cast<std::size_t>(i)]->outcome = Outcome::measured;
   filter_.update(agreeing);
   return static_cast<int>(agreeing.size());
@@ -107,7 +108,10 @@ void MonoSlam::measure(double deviations) {
   for (; next < order.size() && static_cast<int>(next) < options_.first_group; ++next) {
     seek(order[next], order[next]->prediction);
   }
-  if (take(found, measurements) > 0) {
+  // What the first ones agreed on is where the others are held against, however few those are.
+  int least = options_.least_inliers;
+  if (take(found, measurements, least) > 0) {
+    least = 1;
     found.clear();
     measurements.clear();
     for (; next < order.size(); ++next) {
@@ -117,7 +121,7 @@ void MonoSlam::measure(double deviations) {
   } else {
     for (; next < order.size(); ++next) seek(order[next], order[next]->prediction);
   }
-  take(found, measurements);
+  take(found, measurements, least);
 }
 
 void MonoSlam::weigh_particles() {

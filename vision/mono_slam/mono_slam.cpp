@@ -185,19 +185,21 @@ void MonoSlam::start_as_stated(const MonoInput& input) {
 void MonoSlam::track(const MonoInput& input) {
   const double seconds = std::max(0.0, seconds_from_timestamp(input.time - *last_time_));
   filter_.predict(seconds, options_.motion, input.control);
-  const bool leaps = commanded_turn(input) > kLeap && (poor_frames_ == 0 || leapt_);
-  leapt_ = leapt_ || leaps;
-  if (leapt_) feel_turning(input, seconds);
-  // A picture taken meanwhile is smeared over the way: no single point is looked for in it.
-  if (leaps) return;
+  const bool turns = commanded_turn(input) > kLeap;
+  if (turns && poor_frames_ == 0 && !leapt_at_) leapt_at_ = input.time;
+  if (excused(input.time)) {
+    feel_turning(input, seconds);
+    // A picture taken meanwhile is smeared over the way: no single point is looked for in it.
+    if (turns) return;
+  }
   measure(options_.search_deviations);
   inliers_ = count_inliers();
-  if (turned_away()) return add_points(input, options_.visible_points);
+  if (turned_away(input.time)) return add_points(input, options_.visible_points);
   if (inliers_ < options_.least_inliers) {
     measure(options_.jerk_deviations);
     inliers_ = count_inliers();
   }
-  poor_frames_ = inliers_ < options_.least_inliers ? poor_frames_ + 1 : 0;
+  poor_frames_ = sees_enough() ? 0 : poor_frames_ + 1;
   if (poor_frames_ >= options_.patience) {
     state_ = TrackingState::lost;
     return;
@@ -208,6 +210,12 @@ void MonoSlam::track(const MonoInput& input) {
     weigh_particles();
     manage_map(input);
   }
+}
+
+// A few points of many agree with any pose near a wrong one.
+bool MonoSlam::sees_enough() const {
+  return inliers_ >= options_.least_inliers &&
+         inliers_ >= options_.least_share * static_cast<double>(looks_.size());
 }
 
 // A carrier does not go on as it moved for the third of a second that a leap takes: how it turns
@@ -247,9 +255,13 @@ double MonoSlam::background_inverse_distance() const {
 
 // Whether a command has turned the camera to where little is mapped: then nothing is missing, and
 // the few points that are expected, at the old map's edge, may be anywhere.
-bool MonoSlam::turned_away() {
-  if (inliers_ >= options_.least_inliers) leapt_ = false;
-  return leapt_ && static_cast<int>(looks_.size()) < options_.visible_points / 3;
+bool MonoSlam::turned_away(Timestamp now) {
+  if (inliers_ >= options_.least_inliers) leapt_at_.reset();
+  return excused(now) && static_cast<int>(looks_.size()) < options_.visible_points / 3;
+}
+
+bool MonoSlam::excused(Timestamp now) const {
+  return leapt_at_ && seconds_from_timestamp(now - *leapt_at_) < options_.leap_patience;
 }
 
 int MonoSlam::count_inliers() const {
@@ -295,9 +307,10 @@ void MonoSlam::find_again() {
     group.push_back(&look);
     measurements.push_back({look.prediction, *look.measured});
   }
-  take(group, measurements);
+  take(group, measurements, options_.least_inliers);
   inliers_ = count_inliers();
   poor_frames_ = 0;
+  leapt_at_.reset();
   state_ = TrackingState::relocalised;
 }
 
@@ -309,6 +322,7 @@ void MonoSlam::forget_target() {
 
 SparseMap MonoSlam::map() const {
   SparseMap out;
+  out.camera = camera_;
   std::vector<PointId> ids;
   for (const Landmark& landmark : landmarks_) {
     const Point& point = filter_.point(landmark.id);
@@ -340,6 +354,8 @@ MonoResult MonoSlam::result(const MonoInput& input) const {
   out.target = target_sight_;
   out.inliers = inliers_;
   out.visible = static_cast<int>(looks_.size());
+  out.pose_seen =
+      state_ != TrackingState::initialising && state_ != TrackingState::lost && sees_enough();
   if (state_ == TrackingState::initialising) return out;
   out.world_from_camera = filter_.camera_state().world_from_camera();
   out.pose_covariance = filter_.camera_covariance().topLeftCorner<kPoseRows, kPoseRows>();

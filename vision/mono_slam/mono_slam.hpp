@@ -57,8 +57,12 @@ struct MonoSlamOptions {
   double known_ratio = 0.3;   // sigma / distance at which particles become a point
   double linear_ratio = 0.1;  // Civera's linearity index at which an inverse depth does
 
-  int least_inliers = 4;  // of a frame that counts as tracked
-  int patience = 10;      // frames below that before the camera is lost
+  int least_inliers = 4;         // of a frame that counts as tracked
+  double least_share = 1.0 / 3;  // and of what was looked for in it
+  int patience = 10;             // frames below that before the camera is lost
+  // How long a commanded leap excuses that nothing is seen: on the way, and until what is there is
+  // mapped.
+  double leap_patience = 1;  // s
 
   std::optional<StartTarget> target;
   int depth_patience = 30;  // frames whose depth shows too little, before the scale is stated
@@ -112,6 +116,7 @@ struct MonoResult {
   ScaleFrom scale = ScaleFrom::nothing_yet;
   TargetSight target = TargetSight::nothing;    // while initialising
   Pose world_from_camera;                       // while lost: the last one that was believed
+  bool pose_seen = false;                       // too little was seen otherwise: it is predicted
   Matrix6d pose_covariance = Matrix6d::Zero();  // position [m], turn about the camera's axes [rad]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s in the world
   double trace = 0;                                    // of the whole covariance
@@ -154,7 +159,9 @@ class MonoSlam {
   void start_at_origin();
   void track(const MonoInput& input);
   int count_inliers() const;
-  bool turned_away();
+  bool sees_enough() const;
+  bool excused(Timestamp now) const;
+  bool turned_away(Timestamp now);
   void feel_turning(const MonoInput& input, double seconds);
   double background_inverse_distance() const;
   void find_again();
@@ -167,7 +174,8 @@ class MonoSlam {
   void measure(double deviations);
   std::optional<Match> look_for(Landmark* landmark, const Prediction& prediction,
                                 double deviations) const;
-  int take(const std::vector<Look*>& group, const std::vector<Measurement>& measurements);
+  int take(const std::vector<Look*>& group, const std::vector<Measurement>& measurements,
+           int least);
   void weigh_particles();
 
   // map_management.cpp: which points there are.
@@ -202,8 +210,8 @@ class MonoSlam {
   std::optional<Timestamp> last_time_;
   std::int64_t frame_ = -1;
   int inliers_ = 0;
-  int poor_frames_ = 0;  // in a row
-  bool leapt_ = false;   // by a command, and little has been seen since
+  int poor_frames_ = 0;                // in a row
+  std::optional<Timestamp> leapt_at_;  // by a command, and little has been seen since
 };
 
 }  // namespace armsreach::mono_slam

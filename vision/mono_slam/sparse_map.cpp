@@ -1,7 +1,10 @@
 #include "vision/mono_slam/sparse_map.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -16,10 +19,41 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
-constexpr std::string_view kMagic = "ARSPARS1";
+constexpr std::string_view kMagic = "ARSPARS2";
+constexpr std::string_view kWithoutCamera = "ARSPARS1";
+constexpr std::int32_t kLargest = 1 << 14;  // px, of a picture
 constexpr std::uint32_t kMostPoints = 500;
 constexpr std::int32_t kSide = 2 * Patch::kReach + 1;
 constexpr double kFarthest = 1e4;  // m and px: what cannot be
+
+void put_camera(std::ostream& out, const Camera& camera) {
+  write_value(out, std::int32_t{camera.width});
+  write_value(out, std::int32_t{camera.height});
+  write_value(out, static_cast<std::int32_t>(camera.distortion));
+  for (const double value : {camera.fx, camera.fy, camera.cx, camera.cy}) write_value(out, value);
+  write_values(out, camera.coefficients);
+}
+
+// Nothing when it cannot be.
+std::optional<Camera> get_camera(ValueReader& in) {
+  Camera camera;
+  camera.width = in.get<std::int32_t>();
+  camera.height = in.get<std::int32_t>();
+  const auto distortion = in.get<std::int32_t>();
+  for (double* value : {&camera.fx, &camera.fy, &camera.cx, &camera.cy}) *value = in.get<double>();
+  camera.coefficients = in.get_values<std::array<double, 8>>();
+  const auto finite = [](double value) { return std::isfinite(value); };
+  const bool possible = camera.width > 0 && camera.width <= kLargest && camera.height > 0 &&
+                        camera.height <= kLargest && distortion >= 0 &&
+                        distortion <= static_cast<std::int32_t>(Distortion::monoslam) &&
+                        camera.fx > 0 && camera.fx < kFarthest && camera.fy > 0 &&
+                        camera.fy < kFarthest && std::abs(camera.cx) < kFarthest &&
+                        std::abs(camera.cy) < kFarthest &&
+                        std::all_of(camera.coefficients.begin(), camera.coefficients.end(), finite);
+  if (!possible) return std::nullopt;
+  camera.distortion = static_cast<Distortion>(distortion);
+  return camera;
+}
 
 void put_patch(std::ostream& out, const Patch& patch) {
   write_value(out, std::int32_t{patch.size});
@@ -93,6 +127,7 @@ std::optional<MatrixXd> get_covariance(ValueReader& in, Eigen::Index rows) {
 
 void write_sparse_map(std::ostream& out, const SparseMap& map) {
   out.write(kMagic.data(), static_cast<std::streamsize>(kMagic.size()));
+  put_camera(out, map.camera);
   write_value(out, static_cast<std::uint32_t>(map.landmarks.size()));
   for (std::size_t i = 0; i < map.landmarks.size(); ++i) {
     const Landmark& landmark = map.landmarks[i];
@@ -112,11 +147,18 @@ Result<SparseMap> read_sparse_map(std::istream& in, const std::string& where) {
   constexpr const char* kRemedy = "map the place again, or give another file";
   std::string magic(kMagic.size(), '\0');
   in.read(magic.data(), static_cast<std::streamsize>(magic.size()));
+  if (in && magic == kWithoutCamera) {
+    return Error{"the map was saved by an older version and does not say what camera saw it", where,
+                 kRemedy};
+  }
   if (!in || magic != kMagic) return Error{"this is not a file of a sparse map", where, kRemedy};
   ValueReader reader(in);
+  const auto camera = get_camera(reader);
   const auto count = reader.get<std::uint32_t>();
   if (!reader.ok()) return Error{"the file ends before its first point", where, kRemedy};
+  if (!camera) return Error{"the camera has values that cannot be", where, kRemedy};
   SparseMap map;
+  map.camera = *camera;
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::string position = "point " + std::to_string(i + 1) + " of " + std::to_string(count);
     const bool possible = i < kMostPoints && get_point(reader, &map);
@@ -127,7 +169,32 @@ Result<SparseMap> read_sparse_map(std::istream& in, const std::string& where) {
   if (!reader.ok()) return Error{"the file ends within the covariance", where, kRemedy};
   if (!covariance) return Error{"the covariance is not positive", where, kRemedy};
   map.covariance = std::move(*covariance);
+  if (in.peek() != std::istream::traits_type::eof())
+    return Error{"the file goes on after the map", where, kRemedy};
   return map;
+}
+
+Status check_same_camera(const SparseMap& map, const Camera& camera, const std::string& where) {
+  const Camera& known = map.camera;
+  // px, at the picture's edge: a calibration that was repeated is the same camera's.
+  constexpr double kSame = 2;
+  const auto differ = [&](double x, double y) {
+    const Eigen::Vector2d pixel(x * (camera.width - 1), y * (camera.height - 1));
+    const auto seen = project(known, unproject(camera, pixel));
+    return !seen || (*seen - pixel).norm() > kSame;
+  };
+  const bool same = known.width == camera.width && known.height == camera.height &&
+                    !differ(0, 0.5) && !differ(1, 0.5) && !differ(0.5, 0) && !differ(0.5, 1);
+  if (same) return ok();
+  char what[160];
+  std::snprintf(
+      what, sizeof what,
+      "the map is another camera's: it is of %dx%d px and a focal length of %.1f px, this "
+      "camera of %dx%d and %.1f",
+      known.width, known.height, known.fx, camera.width, camera.height, camera.fx);
+  return Error{what, where,
+               "use the camera (or the --camera file) the map was made with, or give --session "
+               "another folder"};
 }
 
 }  // namespace armsreach::mono_slam

@@ -59,6 +59,18 @@ TEST(Journal, AnEventWhereTheStateChangesAndOnlyThere) {
   EXPECT_EQ(told, (std::vector<TrackingState>{initialising, tracking, lost, tracking}));
 }
 
+TEST(Journal, APoseThatWasOnlyPredictedIsNotWritten) {
+  EventLog log;
+  Journal journal(log);
+  TrackedFrame covered = *tracked(0, TrackingState::tracking);
+  journal.record(*entry_from_tracked(std::make_shared<const TrackedFrame>(covered)));
+  covered.pose_seen = false;
+  journal.record(*entry_from_tracked(std::make_shared<const TrackedFrame>(covered)));
+  EXPECT_EQ(journal.frames(), 2);
+  EXPECT_EQ(journal.tracked_frames(), 1);
+  EXPECT_EQ(log.recent().size(), 1U) << "the state is still tracking";
+}
+
 TEST(Journal, BeforeAnythingWasSeenNoPoseIsKnown) {
   EventLog log;
   Journal journal(log);

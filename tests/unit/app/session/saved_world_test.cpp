@@ -47,6 +47,7 @@ TEST_F(SavedWorldTest, ASessionComesBackAsItWas) {
 
 TEST_F(SavedWorldTest, ASparseMapComesBackAndDoesNotMixWithADenseOne) {
   mono_slam::SparseMap map;
+  map.camera = pinhole(320, 240, 264, 264, 159.5, 119.5);
   mono_slam::Landmark landmark;
   landmark.patch.grey = cv::Mat(33, 33, CV_8UC1, cv::Scalar(120));
   landmark.patch.grey.at<std::uint8_t>(3, 4) = 7;

@@ -75,5 +75,14 @@ TEST(Consensus, OneAloneAgreesWithItself) {
   EXPECT_EQ(scene.agreeing(measurements), std::vector<int>{0});
 }
 
+TEST(Consensus, OfTwoThatDisagreeNeitherIsBelieved) {
+  Scene scene;
+  auto measurements = scene.measurements();
+  measurements.resize(2);
+  EXPECT_EQ(scene.agreeing(measurements).size(), 2U);
+  measurements[0].pixel.x() += 4;
+  EXPECT_TRUE(scene.agreeing(measurements).empty());
+}
+
 }  // namespace
 }  // namespace armsreach::mono_slam

@@ -13,6 +13,7 @@ namespace {
 
 SparseMap some_map() {
   SparseMap map;
+  map.camera = test::wide_angle();
   for (int i = 0; i < 3; ++i) {
     Landmark landmark;
     landmark.attempts = 10 + i;
@@ -41,6 +42,9 @@ TEST(SparseMap, ComesBackAsItWas) {
   const auto read = read_sparse_map(in, "map");
   ASSERT_TRUE(read) << read.error().message();
   ASSERT_EQ(read->landmarks.size(), 3U);
+  EXPECT_EQ(read->camera.distortion, Distortion::monoslam);
+  EXPECT_EQ(read->camera.fx, map.camera.fx);
+  EXPECT_EQ(read->camera.coefficients, map.camera.coefficients);
   EXPECT_EQ(read->points_in_world, map.points_in_world);
   EXPECT_LT((read->covariance - map.covariance).cwiseAbs().maxCoeff(), 1e-15);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -79,8 +83,44 @@ TEST(SparseMap, WhatCannotBeIsAnError) {
   SparseMap size = some_map();
   size.landmarks[0].patch.size = 200;
   EXPECT_TRUE(refused(size));
+  SparseMap blind = some_map();
+  blind.camera.fx = 0;
+  EXPECT_TRUE(refused(blind));
   std::istringstream other("this is a text about maps");
   EXPECT_FALSE(read_sparse_map(other, "map"));
+}
+
+TEST(SparseMap, WhatFollowsTheMapIsAnError) {
+  std::istringstream in(written(some_map()) + 'x');
+  const auto read = read_sparse_map(in, "map");
+  ASSERT_FALSE(read);
+  EXPECT_NE(read.error().what.find("goes on"), std::string::npos);
+}
+
+TEST(SparseMap, AMapThatDoesNotNameItsCameraIsAnError) {
+  std::string bytes = written(some_map());
+  bytes[7] = '1';
+  std::istringstream in(bytes);
+  const auto read = read_sparse_map(in, "map");
+  ASSERT_FALSE(read);
+  EXPECT_NE(read.error().what.find("older version"), std::string::npos);
+}
+
+TEST(SparseMap, IsOfOneCamera) {
+  const SparseMap map = some_map();
+  Camera camera = map.camera;
+  EXPECT_TRUE(check_same_camera(map, camera, "map"));
+  camera.fx += 1;  // calibrated again
+  EXPECT_TRUE(check_same_camera(map, camera, "map"));
+  camera.fx = 300;
+  const Status refused = check_same_camera(map, camera, "map");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().where, "map");
+  EXPECT_NE(refused.error().what.find("195.0"), std::string::npos);
+  camera = map.camera;
+  camera.coefficients[0] = 0;
+  EXPECT_FALSE(check_same_camera(map, camera, "map"));
+  EXPECT_FALSE(check_same_camera(map, resized(map.camera, 160, 120), "map"));
 }
 
 }  // namespace
