@@ -53,7 +53,9 @@ struct BodyToText {
 };
 
 Viewer viewer_of(const TrackedFrame& tracked, const render::Scene& scene) {
-  return {tracked.world_from_camera.translation(), render::known_up(scene)};
+  // A few points of a sparse map cannot tell a wall from the things on a table.
+  const auto up = scene.surface ? render::known_up(scene) : std::nullopt;
+  return {tracked.world_from_camera.translation(), up};
 }
 
 }  // namespace

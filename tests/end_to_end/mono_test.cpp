@@ -313,8 +313,9 @@ TEST(EndToEndMono, TheGazeIsHeldAgainstTheWearersTurning) {
   EXPECT_THAT(modes(gaze_events(held)), ElementsAre("fixate"));
   const MonoRun free =
       track(folder, worn("gaze-room", 50), std::string(kMono) + "gaze: {mode: rest}\n");
-  EXPECT_GT(turned(free.trajectory), 2);
-  EXPECT_LT(turned(held.trajectory), 0.7);
+  EXPECT_GT(turned(free.trajectory), 1.5);
+  // Commands are a tenth of a second late, and so is what they answer.
+  EXPECT_LT(turned(held.trajectory), 0.6 * turned(free.trajectory));
 }
 
 TEST(EndToEndMono, WhatCannotBeIsRefused) {

@@ -96,7 +96,7 @@ GazeRun gaze_run(const std::string& mode, const std::string& threads) {
   write_text(folder / "hand.yaml", kPointingHand);
   std::vector<std::string> arguments =
       run_of(folder,
-             "sim-hand:sim:gaze,mount=shoulder,gimbal=yes,frames=45,script=" +
+             "sim-hand:sim:gaze-room,mount=shoulder,gimbal=yes,frames=45,script=" +
                  (folder / "hand.yaml").string(),
              "wearable");
   *std::find(arguments.begin(), arguments.end(), "none") = "osmesa";
