@@ -30,8 +30,8 @@
 // or, of a thing of several pieces, `parts: [{SHAPE, at, turn_deg, material}, ...]` in the thing's
 // frame. What is turned is turned about the outer frame's x, then y, then z, and then moved to
 // `at`. A motion starts where the thing stands; keys at rest keep it where it was. A path with a
-// single key is a tripod, and a wearer's world needs of its path only the duration. This codec names
-// the files of meshes and pictures; world_files.hpp loads them.
+// single key is a tripod, and a wearer's world needs of its path only the duration. This codec
+// names the files of meshes and pictures; world_files.hpp loads them.
 #pragma once
 
 #include <istream>

@@ -65,8 +65,8 @@ TEST(GesturePhotos, NumeralsOfUnseenPeople) {
 }
 
 // People whose number divides by five are in no template. Skin and all, as the program does it.
-// Measured: right 0.955, wrong 0.023. Over five such parts of the people, each with templates of the
-// others, an earlier bank made likewise reached about 0.957 and 0.027.
+// Measured: right 0.955, wrong 0.023. Over five such parts of the people, each with templates of
+// the others, an earlier bank made likewise reached about 0.957 and 0.027.
 TEST(GesturePhotos, PhotographedNumeralsOfUnseenPeople) {
   ARMSREACH_RECORDING_OR_SKIP(digits, "hands/digits");
   const std::string path = ARMSREACH_SOURCE_DIR "/assets/skin/default.yaml";
@@ -133,8 +133,9 @@ TEST(GesturePhotos, FiveGesturesOfUnseenPeopleFromColour) {
               every.right, every.wrong);
   std::printf("%d on plain backgrounds: told right %d, wrong %d\n", plain.all, plain.right,
               plain.wrong);
-  // Two or three photos below what is reached: 0.91 likeliest, 0.80 told right and 0.035 wrong (three
-  // of the four are one person's pinch that is a fist in outline). The targets are 0.85 and 0.02.
+  // Two or three photos below what is reached: 0.91 likeliest, 0.80 told right and 0.035 wrong
+  // (three of the four are one person's pinch that is a fist in outline). The targets are 0.85 and
+  // 0.02.
   EXPECT_GE(likeliest, 0.89 * every.all);
   EXPECT_GE(every.right, 0.77 * every.all);
   EXPECT_LE(every.wrong, 0.05 * every.all);
