@@ -1,7 +1,5 @@
 #include "vision/mono_slam/sparse_map.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -12,6 +10,7 @@
 #include <Eigen/Cholesky>
 
 #include "vision/core/byte_stream.hpp"
+#include "vision/core/camera_stream.hpp"
 
 namespace armsreach::mono_slam {
 namespace {
@@ -21,39 +20,9 @@ using Eigen::Vector3d;
 
 constexpr std::string_view kMagic = "ARSPARS2";
 constexpr std::string_view kWithoutCamera = "ARSPARS1";
-constexpr std::int32_t kLargest = 1 << 14;  // px, of a picture
 constexpr std::uint32_t kMostPoints = 500;
 constexpr std::int32_t kSide = 2 * Patch::kReach + 1;
 constexpr double kFarthest = 1e4;  // m and px: what cannot be
-
-void put_camera(std::ostream& out, const Camera& camera) {
-  write_value(out, std::int32_t{camera.width});
-  write_value(out, std::int32_t{camera.height});
-  write_value(out, static_cast<std::int32_t>(camera.distortion));
-  for (const double value : {camera.fx, camera.fy, camera.cx, camera.cy}) write_value(out, value);
-  write_values(out, camera.coefficients);
-}
-
-// Nothing when it cannot be.
-std::optional<Camera> get_camera(ValueReader& in) {
-  Camera camera;
-  camera.width = in.get<std::int32_t>();
-  camera.height = in.get<std::int32_t>();
-  const auto distortion = in.get<std::int32_t>();
-  for (double* value : {&camera.fx, &camera.fy, &camera.cx, &camera.cy}) *value = in.get<double>();
-  camera.coefficients = in.get_values<std::array<double, 8>>();
-  const auto finite = [](double value) { return std::isfinite(value); };
-  const bool possible = camera.width > 0 && camera.width <= kLargest && camera.height > 0 &&
-                        camera.height <= kLargest && distortion >= 0 &&
-                        distortion <= static_cast<std::int32_t>(Distortion::monoslam) &&
-                        camera.fx > 0 && camera.fx < kFarthest && camera.fy > 0 &&
-                        camera.fy < kFarthest && std::abs(camera.cx) < kFarthest &&
-                        std::abs(camera.cy) < kFarthest &&
-                        std::all_of(camera.coefficients.begin(), camera.coefficients.end(), finite);
-  if (!possible) return std::nullopt;
-  camera.distortion = static_cast<Distortion>(distortion);
-  return camera;
-}
 
 void put_patch(std::ostream& out, const Patch& patch) {
   write_value(out, std::int32_t{patch.size});
@@ -127,7 +96,7 @@ std::optional<MatrixXd> get_covariance(ValueReader& in, Eigen::Index rows) {
 
 void write_sparse_map(std::ostream& out, const SparseMap& map) {
   out.write(kMagic.data(), static_cast<std::streamsize>(kMagic.size()));
-  put_camera(out, map.camera);
+  write_camera(out, map.camera);
   write_value(out, static_cast<std::uint32_t>(map.landmarks.size()));
   for (std::size_t i = 0; i < map.landmarks.size(); ++i) {
     const Landmark& landmark = map.landmarks[i];
@@ -153,7 +122,7 @@ Result<SparseMap> read_sparse_map(std::istream& in, const std::string& where) {
   }
   if (!in || magic != kMagic) return Error{"this is not a file of a sparse map", where, kRemedy};
   ValueReader reader(in);
-  const auto camera = get_camera(reader);
+  const auto camera = read_camera(reader);
   const auto count = reader.get<std::uint32_t>();
   if (!reader.ok()) return Error{"the file ends before its first point", where, kRemedy};
   if (!camera) return Error{"the camera has values that cannot be", where, kRemedy};

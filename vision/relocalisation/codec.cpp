@@ -1,6 +1,5 @@
 #include "vision/relocalisation/codec.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -8,6 +7,7 @@
 #include <utility>
 
 #include "vision/core/byte_stream.hpp"
+#include "vision/core/camera_stream.hpp"
 
 namespace armsreach::relocalisation {
 namespace {
@@ -15,7 +15,6 @@ namespace {
 constexpr std::string_view kMagic = "ARKEYS01";
 constexpr std::uint32_t kMostKeyFrames = 100'000;
 constexpr std::uint32_t kMostFeatures = 100'000;
-constexpr std::int32_t kLargestImage = 4096;  // px, either way
 
 void put_pose(std::ostream& out, const Pose& pose) {
   write_values(out, pose.rotation().coeffs());
@@ -28,34 +27,6 @@ std::optional<Pose> get_pose(ValueReader& in) {
   constexpr double kUnit = 1e-6;
   if (!(std::abs(rotation.norm() - 1) < kUnit) || !translation.allFinite()) return std::nullopt;
   return Pose(rotation, translation);
-}
-
-void put_camera(std::ostream& out, const Camera& camera) {
-  write_value(out, std::int32_t{camera.width});
-  write_value(out, std::int32_t{camera.height});
-  write_value(out, static_cast<std::int32_t>(camera.distortion));
-  for (const double value : {camera.fx, camera.fy, camera.cx, camera.cy}) write_value(out, value);
-  write_values(out, camera.coefficients);
-}
-
-std::optional<Camera> get_camera(ValueReader& in) {
-  Camera camera;
-  camera.width = in.get<std::int32_t>();
-  camera.height = in.get<std::int32_t>();
-  const auto distortion = in.get<std::int32_t>();
-  for (double* value : {&camera.fx, &camera.fy, &camera.cx, &camera.cy}) *value = in.get<double>();
-  camera.coefficients = in.get_values<decltype(camera.coefficients)>();
-  const auto possible = [](std::int32_t size) { return size > 0 && size <= kLargestImage; };
-  if (!possible(camera.width) || !possible(camera.height)) return std::nullopt;
-  if (distortion < 0 || distortion > static_cast<std::int32_t>(Distortion::monoslam))
-    return std::nullopt;
-  camera.distortion = static_cast<Distortion>(distortion);
-  const auto finite = [](double value) { return std::isfinite(value); };
-  if (!(camera.fx > 0 && camera.fy > 0) || !finite(camera.fx) || !finite(camera.fy) ||
-      !finite(camera.cx) || !finite(camera.cy) ||
-      !std::all_of(camera.coefficients.begin(), camera.coefficients.end(), finite))
-    return std::nullopt;
-  return camera;
 }
 
 void put_depth(std::ostream& out, const cv::Mat& depth) {
@@ -104,7 +75,7 @@ void put_key_frame(std::ostream& out, const KeyFrame& key_frame) {
   write_value(out, key_frame.frame);
   put_pose(out, key_frame.world_from_color);
   write_value(out, key_frame.view.pixel_size);
-  put_camera(out, key_frame.view.camera);
+  write_camera(out, key_frame.view.camera);
   put_depth(out, key_frame.view.depth);
   put_features(out, key_frame.view.features);
 }
@@ -118,7 +89,7 @@ std::shared_ptr<const KeyFrame> get_key_frame(ValueReader& in) {
   if (!pose || !std::isfinite(key_frame->view.pixel_size) || key_frame->view.pixel_size <= 0)
     return nullptr;
   key_frame->world_from_color = *pose;
-  const auto camera = get_camera(in);
+  const auto camera = read_camera(in);
   if (!camera) return nullptr;
   key_frame->view.camera = *camera;
   const auto depth = get_depth(in, {camera->width, camera->height});
