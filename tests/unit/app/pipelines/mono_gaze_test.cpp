@@ -120,6 +120,8 @@ TEST(MonoGaze, LeapsToABareWallWithoutBeingLost) {
   EXPECT_EQ(loop.lost, 0);
   EXPECT_LE(arrival(loop, 1 * kDegree), 0.5);
   EXPECT_LE(off_in_time(loop), 1 * kDegree);
+  // Half a degree is the aim. What is mapped on the wall has next to no scale: over four seeds this
+  // is 0.7 to 3.7 degrees, and here about 1.5.
   EXPECT_LT(settled_rms(loop), 2.5 * kDegree);
 }
 
