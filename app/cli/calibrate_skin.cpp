@@ -161,10 +161,9 @@ Status check_gestures(const Lessons& lessons) {
   constexpr int kFewest = 3;  // views that say something
   const auto views = static_cast<int>(lessons.views().size());
   if (views < kFewest) return ok();
-  auto templates = load_templates("", "wearable");
-  if (!templates) return templates.error();
-  const auto how = gesture::options_for(*templates);
-  const gesture::GestureDetector detector(*std::move(templates), how);
+  auto known = load_gestures("", "wearable", "");
+  if (!known) return known.error();
+  const gesture::GestureDetector detector(std::move(known->templates), known->options);
   int told = 0;
   for (const View& view : lessons.views()) {
     const auto hands = detector.detect(view.skin, view.bgr);

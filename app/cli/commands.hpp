@@ -29,6 +29,7 @@ void add_calibrate_camera(CLI::App& calibrate, Task* task);
 void add_calibrate_target(CLI::App& calibrate, Task* task);
 void add_evaluate_gaze(CLI::App& evaluate, Task* task);
 void add_learn_gesture(CLI::App& learn, Task* task);
+void add_learn_hands(CLI::App& learn, Task* task);
 void add_detect_gestures(CLI::App& detect, Task* task);
 void add_calibrate_skin(CLI::App& calibrate, Task* task);
 void add_learn_color(CLI::App& learn, Task* task);

@@ -42,14 +42,14 @@ nlohmann::json json_from_hand(const HandPicture& picture, const gesture::HandObs
 }
 
 Status detect(const DetectGesturesOptions& options) {
-  auto templates = load_templates(options.gestures.templates, options.gestures.vocabulary);
-  if (!templates) return templates.error();
-  const auto how = gesture::options_for(*templates);
-  const gesture::GestureDetector detector(std::move(*templates), how);
+  auto known = load_gestures(options.gestures.templates, options.gestures.vocabulary,
+                             options.gestures.hands);
+  if (!known) return known.error();
+  const gesture::GestureDetector detector(std::move(known->templates), known->options);
   nlohmann::json all = nlohmann::json::array();
   const auto status = for_readable_hand_pictures(
       options.places, options.gestures.skin, [&](const HandPicture& picture) {
-        for (const auto& hand : detector.detect(picture.skin, picture.bgr))
+        for (const auto& hand : detector.detect(picture.skins, picture.bgr))
           all.push_back(json_from_hand(picture, hand));
       });
   if (!status) return status;

@@ -52,11 +52,12 @@ gesture::TemplateSet thinned(const gesture::TemplateSet& set, int n) {
 }
 
 // One detector for each K that the templates' own can be thinned to, the templates' own first.
-std::vector<gesture::GestureDetector> detectors_over_k(const gesture::TemplateSet& set) {
+std::vector<gesture::GestureDetector> detectors_over_k(const KnownGestures& known) {
+  const gesture::TemplateSet& set = known.templates;
   std::vector<gesture::GestureDetector> detectors;
   for (const int n : {1, 3, 5, 9, 15}) {
     if (set.layout.samples % (2 * n) == 0 && set.layout.samples / n >= 4)
-      detectors.emplace_back(thinned(set, n), gesture::options_for(set));
+      detectors.emplace_back(thinned(set, n), known.options);
   }
   return detectors;
 }
@@ -181,11 +182,12 @@ Status write_plots(const std::string& folder, const Evaluation& evaluation,
 }
 
 Status evaluate(const EvaluateGesturesOptions& options) {
-  auto templates = load_templates(options.gestures.templates, options.gestures.vocabulary);
-  if (!templates) return templates.error();
+  auto gestures = load_gestures(options.gestures.templates, options.gestures.vocabulary,
+                                options.gestures.hands);
+  if (!gestures) return gestures.error();
   auto classes = class_folders(options.folders);
   if (!classes) return classes.error();
-  const auto detectors = detectors_over_k(*templates);
+  const auto detectors = detectors_over_k(*gestures);
   if (auto known = check_known(*classes, detectors[0].matcher().gestures()); !known) return known;
   Evaluation evaluation;
   evaluation.over_k.resize(detectors.size());
@@ -194,7 +196,7 @@ Status evaluate(const EvaluateGesturesOptions& options) {
     const auto status = for_hand_pictures(
         {folder.string()}, options.gestures.skin, [&](const HandPicture& picture) -> Status {
           for (std::size_t i = 0; i < detectors.size(); ++i) {
-            const auto hands = detectors[i].detect(picture.skin, picture.bgr);
+            const auto hands = detectors[i].detect(picture.skins, picture.bgr);
             const auto* hand = spoken_for(hands);
             if (i == 0) judge(hand, truth, &evaluation);
             score(hand, truth, detectors[i].matcher().gestures(), &evaluation.over_k[i]);

@@ -87,6 +87,28 @@ Result<gesture::TemplateSet> load_templates(const std::string& folder,
   return set;
 }
 
+Result<gesture::TextureModel> load_texture(const std::string& path) {
+  if (path.empty()) {
+    constexpr const char* kOwn = "gestures/hands.txt";
+    std::istringstream in{std::string(render::asset(kOwn))};
+    return gesture::read_texture_model(in, kOwn);
+  }
+  std::ifstream in(path);
+  if (!in || fs::is_directory(path))
+    return Error{"cannot be opened", path, "write it with `armsreach learn hands`"};
+  return gesture::read_texture_model(in, path);
+}
+
+Result<KnownGestures> load_gestures(const std::string& folder, const std::string& vocabulary,
+                                    const std::string& texture) {
+  auto templates = load_templates(folder, vocabulary);
+  if (!templates) return templates.error();
+  auto model = load_texture(texture);
+  if (!model) return model.error();
+  auto options = gesture::options_for(*templates, *model);
+  return KnownGestures{*std::move(templates), std::move(options)};
+}
+
 Result<std::optional<gesture::RingLayout>> layout_in(const std::string& folder,
                                                      const std::string& vocabulary) {
   auto set = templates_in(fs::path(folder) / vocabulary);

@@ -13,6 +13,8 @@ void add_gesture_options(CLI::App& command, GestureOptions* options) {
   command
       .add_option("--vocabulary", options->vocabulary, "the program knows wearable and asl-digits")
       ->capture_default_str();
+  command.add_option("--hands", options->hands,
+                     "what hands look like, from `learn hands`; without it the program's own");
   add_skin_options(command, &options->skin);
 }
 

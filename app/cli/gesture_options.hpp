@@ -12,6 +12,7 @@ namespace armsreach::app {
 struct GestureOptions {
   std::string templates;  // folder; empty: the program's own
   std::string vocabulary = "wearable";
+  std::string hands;  // file of their texture; empty: the program's own
   SkinSource skin;
 };
 

@@ -66,7 +66,7 @@ Status look_at_video(const std::string& file, const gesture::ColorModel& model, 
     if (!frame) return frame.error();
     if (!*frame) return ok();
     HandPicture picture{file, (*frame)->index, (*frame)->color, {}};
-    picture.skin = skin.segment(picture.bgr);
+    picture.skins = skin.segmentations(picture.bgr);
     if (auto status = look(picture); !status) return status;
     if (progress.due()) progress.show(file + ": frame " + std::to_string(picture.frame));
   }
@@ -82,11 +82,11 @@ Status look_at_picture(const fs::path& file, const std::string& masks, gesture::
       picture.enlarged = 2;
       cv::resize(*bgr, picture.bgr, {}, 2, 2, cv::INTER_LINEAR);
     }
-    picture.skin = skin->segment(picture.bgr);
+    picture.skins = skin->segmentations(picture.bgr);
   } else {
     auto mask = read_mask_of(file, masks, bgr->size(), std::nullopt);
     if (!mask) return mask.error();
-    picture.skin = *std::move(mask);
+    picture.skins = {*std::move(mask)};
   }
   return look(picture);
 }

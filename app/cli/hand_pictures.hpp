@@ -16,8 +16,10 @@ struct HandPicture {
   std::string file;
   std::int64_t frame = 0;  // of a video; 0 for images
   cv::Mat bgr;             // CV_8UC3
-  cv::Mat skin;            // CV_8UC1, 255 on it
-  int enlarged = 1;        // times, both of them: a thumbnail's skin is found between its pixels
+  // CV_8UC1, 255 on skin: as the model sees it that was fitted to the picture, then, where there is
+  // any, as the model itself does.
+  std::vector<cv::Mat> skins;
+  int enlarged = 1;  // times, both of them: a thumbnail's skin is found between its pixels
 };
 
 struct SkinSource {

@@ -49,24 +49,32 @@ Status check_gestures(const gesture::GestureTable& table, const gesture::Templat
 // Looks at one image after the other, on one thread.
 class Looking {
  public:
-  Looking(gesture::ColorModel skin, const gesture::TemplateSet& templates,
+  Looking(gesture::ColorModel skin, const KnownGestures& known,
           std::optional<gesture::ColorModel> colors, double reach)
       : skin_(std::move(skin), {.adaptation = gesture::SkinOptions::Adaptation::stream}),
-        hands_(templates, gesture::options_for(templates)),
+        hands_(known.templates, known.options),
         reach_(reach) {
     if (colors) things_.emplace(*std::move(colors));
   }
 
   Sighting look(const Frame& frame) {
     const cv::Mat& bgr = frame.color;
-    cv::Mat skin = skin_.segment(bgr);
-    if (!frame.depth.empty() && frame.sensor->registered)
-      skin = gesture::within_reach(skin, frame.depth, reach_);
-    return {hands_.detect(skin, bgr), things_ ? things_->find(bgr, skin) : gesture::ColorBlobs()};
+    const cv::Mat skin = within_reach(skin_.segment(bgr), frame);
+    auto hands = hands_.detect(skin, bgr);
+    if (skin_.adapted() && !gesture::any_told(hands)) {
+      hands = gesture::likelier(
+          std::move(hands), hands_.detect(within_reach(skin_.segment_unadapted(bgr), frame), bgr));
+    }
+    return {std::move(hands), things_ ? things_->find(bgr, skin) : gesture::ColorBlobs()};
   }
   const gesture::RingLayout& rings() const { return hands_.matcher().set().layout; }
 
  private:
+  cv::Mat within_reach(const cv::Mat& skin, const Frame& frame) const {
+    const bool known = !frame.depth.empty() && frame.sensor->registered;
+    return known ? gesture::within_reach(skin, frame.depth, reach_) : skin;
+  }
+
   gesture::SkinSegmenter skin_;
   gesture::GestureDetector hands_;
   double reach_;  // m
@@ -83,8 +91,7 @@ Status check_target(const std::string& target, const std::optional<gesture::Colo
                "give gesture.colours a file that `learn colour " + name + "` has written to"};
 }
 
-Result<HandDetectors> make_detectors(const GestureConfig& config,
-                                     const gesture::TemplateSet& templates,
+Result<HandDetectors> make_detectors(const GestureConfig& config, const KnownGestures& known,
                                      const std::string& gaze_target, bool show_rings) {
   auto skin = skin_model(config.skin);
   if (!skin) return skin.error();
@@ -96,7 +103,7 @@ Result<HandDetectors> make_detectors(const GestureConfig& config,
   }
   if (auto status = check_target(gaze_target, colors); !status) return status.error();
   const auto looking =
-      std::make_shared<Looking>(*std::move(skin), templates, std::move(colors), config.reach);
+      std::make_shared<Looking>(*std::move(skin), known, std::move(colors), config.reach);
   HandDetectors detectors;
   if (show_rings)
     detectors.rings.assign(looking->rings().radii.begin(), looking->rings().radii.end());
@@ -118,14 +125,14 @@ Result<HandsSetup> make_hands_setup(const Config& all) {
   const GestureConfig& config = all.gesture;
   auto table = read_table(config.table);
   if (!table) return table.error();
-  auto templates = load_templates(config.templates, config.vocabulary);
-  if (!templates) return templates.error();
+  auto known = load_gestures(config.templates, config.vocabulary, config.hands);
+  if (!known) return known.error();
   // The program's own table names more than every vocabulary has.
   if (!config.table.empty()) {
-    if (auto status = check_gestures(*table, *templates, config.table); !status)
+    if (auto status = check_gestures(*table, known->templates, config.table); !status)
       return status.error();
   }
-  auto detectors = make_detectors(config, *templates, all.gaze.target, all.show.rings);
+  auto detectors = make_detectors(config, *known, all.gaze.target, all.show.rings);
   if (!detectors) return detectors.error();
   HandsSetup setup;
   setup.detectors = *std::move(detectors);

@@ -40,7 +40,7 @@ Status learn(const LearnGestureOptions& options) {
   const gesture::HandFinder finder;
   const auto status =
       for_hand_pictures(options.pictures, options.skin, [&](const HandPicture& picture) -> Status {
-        const auto blobs = gesture::find_hands(finder, picture.skin, picture.bgr);
+        const auto blobs = gesture::find_hands(finder, picture.skins[0], picture.bgr);
         if (blobs.empty() || !blobs[0].plausible) {
           return Error{"no hand is found in it", picture.file,
                        "show one hand before something of another colour, fit the skin's colour "

@@ -23,6 +23,7 @@ void add_learn_command(CLI::App& app, Task* task) {
   CLI::App& learn = verb(app, "learn", "teach it something from examples");
   add_learn_color(learn, task);
   add_learn_gesture(learn, task);
+  add_learn_hands(learn, task);
 }
 
 void add_detect_command(CLI::App& app, Task* task) {

@@ -101,6 +101,7 @@ void read_gesture(YamlMap section, GestureConfig* gesture) {
                             is_filled);
   section.read<std::string>("templates", &gesture->templates, "a folder of templates", is_filled);
   section.read<std::string>("skin", &gesture->skin, "a file of a skin model", is_filled);
+  section.read<std::string>("hands", &gesture->hands, "a file of what hands look like", is_filled);
   section.read<std::string>("colours", &gesture->colours, "a file of colour classes", is_filled);
   section.read<std::string>("table", &gesture->table, "a file of transitions", is_filled);
   section.read<double>("window", &gesture->window, "between 0 and 2 seconds",

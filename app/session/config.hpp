@@ -59,6 +59,7 @@ struct GestureConfig {
   std::string vocabulary = "wearable";
   std::string templates;          // folder
   std::string skin;               // skin model
+  std::string hands;              // what they look like, from `learn hands`
   std::string colours;            // classes of coloured things
   std::string table;              // transitions
   double window = 0.25;           // s of the modal filter

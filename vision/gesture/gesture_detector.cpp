@@ -11,7 +11,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "vision/gesture/cast_shadow.hpp"
-#include "vision/gesture/hand_evidence.hpp"
 #include "vision/gesture/hand_separation.hpp"
 #include "vision/gesture/pointing_finger.hpp"
 
@@ -75,11 +74,6 @@ double solidity_of(const HandShape& shape) {
   return static_cast<double>(pixels.size()) / std::max(1.0, cv::contourArea(hull));
 }
 
-std::optional<double> wrist_of(const HandShape& shape) {
-  if (!shape.to_arm) return std::nullopt;
-  return shape.wrist_width / (2 * shape.palm_radius);
-}
-
 // Gestures that are about as like a disc as a blob without fingers is.
 std::vector<bool> plain_gestures(const RingMatcher& matcher) {
   constexpr double kPlain = 0.89;  // mean g against a disc
@@ -107,15 +101,6 @@ double most_evidence(const HandObservations& hands) {
   double most = std::numeric_limits<double>::lowest();
   for (const HandObservation& hand : hands) most = std::max(most, hand.evidence);
   return most;
-}
-
-bool any_told(const HandObservations& hands) {
-  return std::any_of(hands.begin(), hands.end(),
-                     [](const HandObservation& hand) { return hand.gesture.has_value(); });
-}
-
-HandObservations likelier(HandObservations one, HandObservations other) {
-  return most_evidence(other) > most_evidence(one) ? other : one;
 }
 
 // Sampling at eight angles within a step averages out which side of a pixel's edge samples fall on.
@@ -166,13 +151,14 @@ Reading read(const RingMatcher& matcher, const HandShape& shape,
 
 }  // namespace
 
-GestureDetectorOptions options_for(const TemplateSet& set) {
+GestureDetectorOptions options_for(const TemplateSet& set, std::optional<TextureModel> texture) {
   constexpr std::size_t kManyGestures = 8;
   constexpr std::size_t kManyExamples = 20;  // of each
   std::set<std::string> gestures;
   for (const GestureTemplate& one : set.templates) gestures.insert(one.gesture);
   const bool many_examples = set.templates.size() >= kManyExamples * gestures.size();
   GestureDetectorOptions options;
+  options.texture = std::move(texture);
   if (gestures.size() >= kManyGestures || !many_examples) {
     options.sizes = {0.95, 1.0, 1.05};
     options.least_margin = gestures.size() >= kManyGestures ? 0.003 : 0.01;
@@ -226,6 +212,15 @@ double own_angle(const RingMatcher& matcher, const HandShape& shape, std::size_t
   return fine_angle(matcher, shape, matches[gesture], turn);
 }
 
+bool any_told(const HandObservations& hands) {
+  return std::any_of(hands.begin(), hands.end(),
+                     [](const HandObservation& hand) { return hand.gesture.has_value(); });
+}
+
+HandObservations likelier(HandObservations one, HandObservations other) {
+  return most_evidence(other) > most_evidence(one) ? other : one;
+}
+
 std::vector<HandBlob> find_hands(const HandFinder& finder, const cv::Mat& skin,
                                  const cv::Mat& bgr) {
   const cv::Mat lit = without_shadow(bgr, skin);
@@ -243,33 +238,25 @@ GestureDetector::GestureDetector(TemplateSet set, const GestureDetectorOptions& 
       matcher_(std::move(set)),
       plain_(plain_gestures(matcher_)) {}
 
-HandObservation GestureDetector::observe(const HandBlob& blob, double image_area,
-                                         bool parted) const {
+HandObservation GestureDetector::observe(const HandBlob& blob, const Segmentation& in) const {
   Reading reading{blob.readings[0], {}, {}};
   for (const HandShape& one : blob.readings) {
     Reading next = read(matcher_, one, options_);
     if (next.best > reading.best) reading = std::move(next);
   }
-  const std::vector<RingMatch>& matches = reading.matches;
   HandObservation seen;
   seen.outline = blob.outline;
   seen.center = reading.shape.center;
   seen.area = reading.shape.area;
   for (std::size_t i = 0; i < reading.matches_at_size.size(); ++i)
     seen.scores[matcher_.gestures()[i]] = reading.matches_at_size[i].g;
-  if (!matches.empty()) {
-    const Likeliest likeliest = likeliest_of(matches, options_);
-    const RingMatch& match = matches[likeliest.gesture];
-    seen.likeliest = matcher_.gestures()[likeliest.gesture];
-    seen.score = match.g;
-    seen.angle = own_angle(matcher_, reading.shape, likeliest.gesture, match.mirrored);
-    if (blob.plausible) {
-      seen.evidence = log_odds({likeliest.likeness, likeliest.margin, contact_of(blob),
-                                solidity_of(reading.shape), seen.area / image_area,
-                                wrist_of(reading.shape), plain_[likeliest.gesture], parted});
-      if (is_told(seen, likeliest.margin)) seen.gesture = seen.likeliest;
-    }
-  }
+  seen.fingertip = farthest_along(blob.outline, {0, -1});
+  if (reading.matches.empty()) return seen;
+  const Likeliest likeliest = likeliest_of(reading.matches, options_);
+  const RingMatch& match = reading.matches[likeliest.gesture];
+  seen.likeliest = matcher_.gestures()[likeliest.gesture];
+  seen.score = match.g;
+  seen.angle = own_angle(matcher_, reading.shape, likeliest.gesture, match.mirrored);
   if (seen.likeliest == "point") {
     const PointingFinger finger = pointing_finger(reading.shape, seen.angle);
     seen.angle = finger.angle;
@@ -277,7 +264,18 @@ HandObservation GestureDetector::observe(const HandBlob& blob, double image_area
   } else {
     seen.fingertip = farthest_along(blob.outline, {std::sin(seen.angle), -std::cos(seen.angle)});
   }
+  if (!blob.plausible) return seen;
+  seen.evidence =
+      log_odds({likeliest.likeness, likeliest.margin, contact_of(blob), solidity_of(reading.shape),
+                seen.area / static_cast<double>(in.skin.total()), plain_[likeliest.gesture],
+                in.parted, texture_of(seen, in.bgr)});
+  if (is_told(seen, likeliest.margin)) seen.gesture = seen.likeliest;
   return seen;
+}
+
+double GestureDetector::texture_of(const HandObservation& seen, const cv::Mat& bgr) const {
+  if (!options_.texture || bgr.empty()) return 0;
+  return options_.texture->log_odds(texture_features(bgr, seen));
 }
 
 bool GestureDetector::is_told(const HandObservation& seen, double margin) const {
@@ -285,25 +283,35 @@ bool GestureDetector::is_told(const HandObservation& seen, double margin) const 
   return !options_.least_log_odds || seen.evidence >= *options_.least_log_odds;
 }
 
-HandObservations GestureDetector::detect_in(const cv::Mat& skin, bool parted) const {
+HandObservations GestureDetector::detect_in(const Segmentation& segmentation) const {
   HandObservations hands;
-  for (const HandBlob& blob : finder_.find(skin)) {
-    hands.push_back(observe(blob, static_cast<double>(skin.total()), parted));
+  for (const HandBlob& blob : finder_.find(segmentation.skin)) {
+    hands.push_back(observe(blob, segmentation));
     hands.back().hand = static_cast<int>(hands.size()) - 1;
   }
   return hands;
 }
 
 HandObservations GestureDetector::detect(const cv::Mat& skin) const {
-  return detect_in(skin, false);
+  return detect_in({skin, {}, false});
 }
 
 HandObservations GestureDetector::detect(const cv::Mat& skin, const cv::Mat& bgr) const {
   const cv::Mat lit = without_shadow(bgr, skin);
-  HandObservations hands = detect_in(lit, false);
-  if (lit.data != skin.data) hands = likelier(std::move(hands), detect_in(skin, false));
+  HandObservations hands = detect_in({lit, bgr, false});
+  if (lit.data != skin.data) hands = likelier(std::move(hands), detect_in({skin, bgr, false}));
   if (hands.empty() || any_told(hands)) return hands;
-  return likelier(std::move(hands), detect_in(without_walls(bgr, lit), true));
+  return likelier(std::move(hands), detect_in({without_walls(bgr, lit), bgr, true}));
+}
+
+HandObservations GestureDetector::detect(const std::vector<cv::Mat>& skins,
+                                         const cv::Mat& bgr) const {
+  HandObservations hands;
+  for (const cv::Mat& skin : skins) {
+    hands = likelier(std::move(hands), detect(skin, bgr));
+    if (any_told(hands)) break;
+  }
+  return hands;
 }
 
 }  // namespace armsreach::gesture

@@ -10,6 +10,7 @@
 #include "vision/gesture/hand_evidence.hpp"
 #include "vision/gesture/hand_observation.hpp"
 #include "vision/gesture/hand_shape.hpp"
+#include "vision/gesture/hand_texture.hpp"
 #include "vision/gesture/ring_matcher.hpp"
 
 namespace armsreach::gesture {
@@ -26,11 +27,14 @@ struct GestureDetectorOptions {
   double least_margin = 0.01;  // by which its likeness exceeds every other gesture's
   // Of hand_evidence.hpp; nothing: not asked.
   std::optional<double> least_log_odds;
+  // What speaks for hands inside of their outline; nothing: shapes alone do.
+  std::optional<TextureModel> texture;
 };
 
 // As fits the templates: whether there are many of each gesture or an example or two, and whether
 // the gestures are a few that were chosen to be told apart, or numerals, which differ by less.
-GestureDetectorOptions options_for(const TemplateSet& set);
+GestureDetectorOptions options_for(const TemplateSet& set,
+                                   std::optional<TextureModel> texture = std::nullopt);
 
 // How far a hand that is straight on its forearm is turned from upright, rad clockwise; nothing
 // where no forearm was seen.
@@ -58,6 +62,10 @@ double own_angle(const RingMatcher& matcher, const HandShape& shape, std::size_t
 // from walls, both by `bgr`.
 std::vector<HandBlob> find_hands(const HandFinder& finder, const cv::Mat& skin, const cv::Mat& bgr);
 
+bool any_told(const HandObservations& hands);
+// Of two looks at one picture, the one whose likeliest hand is likelier.
+HandObservations likelier(HandObservations one, HandObservations other);
+
 class GestureDetector {
  public:
   explicit GestureDetector(TemplateSet set, const GestureDetectorOptions& options = {});
@@ -69,10 +77,20 @@ class GestureDetector {
   // that a hand casts or without, and where no gesture is told, without walls of skin's colour;
   // whichever is likeliest to be hands.
   HandObservations detect(const cv::Mat& skin, const cv::Mat& bgr) const;
+  // The same in each of several masks until a gesture is told.
+  HandObservations detect(const std::vector<cv::Mat>& skins, const cv::Mat& bgr) const;
 
  private:
-  HandObservations detect_in(const cv::Mat& skin, bool parted) const;
-  HandObservation observe(const HandBlob& blob, double image_area, bool parted) const;
+  // A mask, and how it came about.
+  struct Segmentation {
+    cv::Mat skin;
+    cv::Mat bgr;  // empty: the mask alone is known
+    bool parted;  // from walls
+  };
+  HandObservations detect_in(const Segmentation& segmentation) const;
+  HandObservation observe(const HandBlob& blob, const Segmentation& segmentation) const;
+  // Log odds by the texture alone; 0 where it is not known.
+  double texture_of(const HandObservation& seen, const cv::Mat& bgr) const;
   bool is_told(const HandObservation& seen, double margin) const;
 
   GestureDetectorOptions options_;

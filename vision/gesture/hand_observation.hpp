@@ -11,6 +11,8 @@
 
 namespace armsreach::gesture {
 
+constexpr double kNoEvidence = -100;
+
 // Pixels are those of the image the hand was found in.
 struct HandObservation {
   int hand = 0;                          // within its image, the largest first
@@ -24,7 +26,9 @@ struct HandObservation {
   Eigen::Vector2d center{0, 0};     // px, of the hand without its forearm
   Eigen::Vector2d fingertip{0, 0};  // px, the farthest point along that axis
   double area = 0;                  // px^2, without the forearm
-  double evidence = -100;  // log odds that it is a hand making that gesture, see hand_evidence
+  // Log odds that it is a hand making that gesture, see hand_evidence; kNoEvidence where its size
+  // or place speaks against any.
+  double evidence = kNoEvidence;
   std::vector<cv::Point> outline;  // px, closed, with the forearm
 };
 using HandObservations = std::vector<HandObservation>;

@@ -12,7 +12,8 @@ SkinSegmenter::SkinSegmenter(ColorModel model, const SkinOptions& options)
       model_(base_),
       options_(options),
       skin_(std::max(0, class_named(model_, kSkin))),
-      table_(ColorTable::posteriors(model_, skin_)) {}
+      base_table_(ColorTable::posteriors(base_, skin_)),
+      table_(base_table_) {}
 
 cv::Mat SkinSegmenter::reduced(const cv::Mat& bgr) const {
   const int factor = bgr.cols / options_.width;
@@ -26,11 +27,29 @@ const cv::Mat& SkinSegmenter::segment(const cv::Mat& bgr) {
   CV_Assert(bgr.type() == CV_8UC3);
   const cv::Mat small = reduced(bgr);
   adapt_as_told(small);
-  table_.apply(small, &posterior_);
-  cv::blur(posterior_, posterior_, {options_.filter, options_.filter});
-  if (small.size() != bgr.size()) cv::resize(posterior_, posterior_, bgr.size());
-  cv::threshold(posterior_, mask_, 127, 255, cv::THRESH_BINARY);
+  segment_by(table_, small, bgr.size(), &posterior_, &mask_);
   return mask_;
+}
+
+cv::Mat SkinSegmenter::segment_unadapted(const cv::Mat& bgr) const {
+  CV_Assert(bgr.type() == CV_8UC3);
+  cv::Mat posterior, mask;
+  if (adapted_) segment_by(base_table_, reduced(bgr), bgr.size(), &posterior, &mask);
+  return mask;
+}
+
+std::vector<cv::Mat> SkinSegmenter::segmentations(const cv::Mat& bgr) {
+  std::vector<cv::Mat> masks{segment(bgr)};
+  if (adapted_) masks.push_back(segment_unadapted(bgr));
+  return masks;
+}
+
+void SkinSegmenter::segment_by(const ColorTable& table, const cv::Mat& reduced,
+                               const cv::Size& size, cv::Mat* posterior, cv::Mat* mask) const {
+  table.apply(reduced, posterior);
+  cv::blur(*posterior, *posterior, {options_.filter, options_.filter});
+  if (reduced.size() != size) cv::resize(*posterior, *posterior, size);
+  cv::threshold(*posterior, *mask, 127, 255, cv::THRESH_BINARY);
 }
 
 void SkinSegmenter::adapt_as_told(const cv::Mat& reduced) {
@@ -64,7 +83,7 @@ bool SkinSegmenter::adapt_reduced(const cv::Mat& bgr) {
 void SkinSegmenter::reset() {
   if (!adapted_) return;
   model_ = base_;
-  table_ = ColorTable::posteriors(model_, skin_);
+  table_ = base_table_;
   adapted_ = false;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include <opencv2/core/mat.hpp>
 
@@ -32,6 +33,11 @@ class SkinSegmenter {
   // CV_8UC3 BGR of any size to CV_8UC1 of the same size: 255 skin, 0 not. Valid until the next
   // call.
   const cv::Mat& segment(const cv::Mat& bgr);
+  // The same by the model given at the start, which is right where what was learnt since is not;
+  // empty where nothing was learnt.
+  cv::Mat segment_unadapted(const cv::Mat& bgr) const;
+  // Both, as far as there are two; the first is valid until the next call.
+  std::vector<cv::Mat> segmentations(const cv::Mat& bgr);
 
   // Re-estimates from this image, always from the model given at the start, so that nothing drifts.
   // Returns false, and keeps what is in use, where the evidence speaks against it.
@@ -44,13 +50,15 @@ class SkinSegmenter {
 
  private:
   cv::Mat reduced(const cv::Mat& bgr) const;
+  void segment_by(const ColorTable& table, const cv::Mat& reduced, const cv::Size& size,
+                  cv::Mat* posterior, cv::Mat* mask) const;
   bool adapt_reduced(const cv::Mat& bgr);
   void adapt_as_told(const cv::Mat& reduced);
 
   ColorModel base_, model_;
   SkinOptions options_;
   int skin_;
-  ColorTable table_;
+  ColorTable base_table_, table_;
   bool adapted_ = false;
   SkinEvidence evidence_;
   std::int64_t frames_ = 0;
