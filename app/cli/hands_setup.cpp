@@ -62,8 +62,9 @@ class Looking {
     const cv::Mat skin = within_reach(skin_.segment(bgr), frame);
     auto hands = hands_.detect(skin, bgr);
     if (skin_.adapted() && !gesture::any_told(hands)) {
-      hands = gesture::likelier(
-          std::move(hands), hands_.detect(within_reach(skin_.segment_unadapted(bgr), frame), bgr));
+      // What tells nothing either is not taken: hands would jump from one mask's to the other's.
+      auto others = hands_.detect(within_reach(skin_.segment_unadapted(bgr), frame), bgr);
+      if (gesture::any_told(others)) hands = std::move(others);
     }
     return {std::move(hands), things_ ? things_->find(bgr, skin) : gesture::ColorBlobs()};
   }

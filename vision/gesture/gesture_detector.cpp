@@ -157,15 +157,20 @@ GestureDetectorOptions options_for(const TemplateSet& set, std::optional<Texture
   std::set<std::string> gestures;
   for (const GestureTemplate& one : set.templates) gestures.insert(one.gesture);
   const bool many_examples = set.templates.size() >= kManyExamples * gestures.size();
+  const bool numerals = gestures.size() >= kManyGestures;
   GestureDetectorOptions options;
   options.texture = std::move(texture);
-  if (gestures.size() >= kManyGestures || !many_examples) {
-    options.sizes = {0.95, 1.0, 1.05};
-    options.least_margin = gestures.size() >= kManyGestures ? 0.003 : 0.01;
-    options.least_score = many_examples ? 0.92 : 0.85;
-    options.least_log_odds = -2;  // weighed by other gestures: only the worst is left out
+  options.several_nearest = many_examples;
+  if (numerals || !many_examples) options.sizes = {0.95, 1.0, 1.05};
+  if (!many_examples) {
+    options.least_score = 0.85;
+    options.least_margin = numerals ? 0.003 : 0.01;
+    options.least_log_odds = -2;  // of an example or two, which are less alike: only the worst
+  } else if (numerals) {
+    options.least_score = 0.9;
+    options.least_margin = 0.002;
+    options.least_log_odds = -0.25;  // weighed by other gestures
   } else {
-    options.several_nearest = true;
     options.least_score = 0.8;
     options.least_margin = 0;
     options.least_log_odds = 0;

@@ -11,11 +11,11 @@ HandEvidence hand() {
   evidence.margin = 0.02;
   evidence.contact = 0.4;
   evidence.solidity = 0.8;
-  evidence.wrist = 0.68;
+  evidence.texture = 1;
   return evidence;
 }
 
-TEST(HandEvidence, AHandOnItsArmIsTold) { EXPECT_GT(log_odds(hand()), 0); }
+TEST(HandEvidence, AHandIsTold) { EXPECT_GT(log_odds(hand()), 0); }
 
 TEST(HandEvidence, EachSignOfAnotherThingCounts) {
   const auto without = [](auto change) {
@@ -29,10 +29,17 @@ TEST(HandEvidence, EachSignOfAnotherThingCounts) {
   EXPECT_LT(without([](auto& e) { e.contact = 1.2; }), told);
   EXPECT_LT(without([](auto& e) { e.solidity = 0.95; }), told);
   EXPECT_LT(without([](auto& e) { e.share = 0.01; }), told);
-  EXPECT_LT(without([](auto& e) { e.wrist = 1.2; }), told);
-  EXPECT_LT(without([](auto& e) { e.wrist.reset(); }), told);
+  EXPECT_LT(without([](auto& e) { e.texture = -1; }), told);
   EXPECT_LT(without([](auto& e) { e.plain = true; }), told);
   EXPECT_LT(without([](auto& e) { e.parted = true; }), told);
+}
+
+// A hand held close is no more of a hand.
+TEST(HandEvidence, SizeCountsUpToThatOfAHandWithinReach) {
+  HandEvidence near = hand(), nearer = hand();
+  near.share = 0.1;
+  nearer.share = 0.3;
+  EXPECT_EQ(log_odds(near), log_odds(nearer));
 }
 
 // With one gesture known there is no other to be less like, and a margin of nothing is finite.

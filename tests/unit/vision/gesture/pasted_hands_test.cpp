@@ -2,7 +2,6 @@
 // one person's hand, shown to it again by the same person and by another.
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <random>
 #include <set>
@@ -14,9 +13,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "tests/support/recordings.hpp"
-#include "vision/gesture/color_model_yaml.hpp"
-#include "vision/gesture/gesture_detector.hpp"
-#include "vision/gesture/skin_segmenter.hpp"
+#include "tests/unit/vision/gesture/own_hands.hpp"
 
 namespace armsreach::gesture {
 namespace {
@@ -93,9 +90,7 @@ struct Rates {
 
 Rates shown_by(const std::string& person, const GestureDetector& detector, const fs::path& cutout,
                const std::vector<fs::path>& frames) {
-  const std::string path = ARMSREACH_SOURCE_DIR "/assets/skin/default.yaml";
-  std::ifstream in(path);
-  SkinSegmenter skin(*read_color_model(in, path), {.adaptation = SkinOptions::Adaptation::image});
+  SkinSegmenter skin = test::own_segmenter();
   std::mt19937 random(11);
   Rates rates;
   for (const std::string sign : kSigns) {
@@ -104,7 +99,7 @@ Rates shown_by(const std::string& person, const GestureDetector& detector, const
       cv::resize(cv::imread(frames[random() % frames.size()].string()), frame, {320, 240}, 0, 0,
                  cv::INTER_AREA);
       const cv::Mat bgr = pasted(cv::imread(file.string()), frame, random);
-      const auto hands = detector.detect(skin.segment(bgr), bgr);
+      const auto hands = detector.detect(skin.segmentations(bgr), bgr);
       ++rates.all;
       rates.likeliest += !hands.empty() && hands[0].likeliest == sign;
       const bool right = std::any_of(hands.begin(), hands.end(),
@@ -125,7 +120,7 @@ TEST(PastedHands, AreKnownBeforeCabinets) {
   ARMSREACH_RECORDING_OR_SKIP(cutout, "hands/cutout");
   ARMSREACH_RECORDING_OR_SKIP(cabinet, "rgbd/cabinet/rgb");
   TemplateSet set = learnt_from(cutout, "hand1");
-  const GestureDetectorOptions options = options_for(set);
+  const GestureDetectorOptions options = options_for(set, test::own_texture());
   const GestureDetector detector(std::move(set), options);
   const auto frames = sorted_files(cabinet);
   const Rates same = shown_by("hand1", detector, cutout, frames);
