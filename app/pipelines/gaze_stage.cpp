@@ -114,7 +114,7 @@ std::optional<Eigen::Vector3d> GazeStage::point_in_world(const GazeStageInput& i
   }
   const auto pixel = input.seen.hands ? target(*input.seen.hands) : std::nullopt;
   if (!pixel) return std::nullopt;
-  if (auto measured = point_in_world_at(tracked, *pixel)) return measured;
+  if (const auto measured = point_in_world_at(tracked, *pixel)) return measured;
   const auto ray = ray_through(tracked, *pixel);
   return ray && tracked.world ? tracked.world->pick(*ray, kSeenReach) : std::nullopt;
 }
