@@ -25,7 +25,7 @@ class Gimbal : public Actuator {
   // where it has been forgotten. At least the last two seconds are remembered.
   virtual std::optional<GimbalState> state_at(Timestamp time) const = 0;
 
-  // What it was told since the last call, for recordings.
+  // What it was told since the last call, for recordings; of very many commands the newest.
   virtual std::vector<GimbalCommand> take_commands() = 0;
 };
 

@@ -9,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "devices/command_log.hpp"
 #include "vision/core/gimbal_motion.hpp"
 
 namespace armsreach {
@@ -44,7 +45,7 @@ class LiveGimbal final : public Gimbal {
     }
     const std::lock_guard lock(mutex_);
     wanted_ = GimbalCommand{command.time, clamped(model(), command.angles)};
-    log_.push_back(*wanted_);
+    log_.add(*wanted_);
     ++commands_;
     commanded_.notify_all();
     return ok();
@@ -58,7 +59,7 @@ class LiveGimbal final : public Gimbal {
 
   std::vector<GimbalCommand> take_commands() override {
     const std::lock_guard lock(mutex_);
-    return std::exchange(log_, {});
+    return log_.take();
   }
   Events take_events() override {
     const std::lock_guard lock(mutex_);
@@ -152,7 +153,7 @@ class LiveGimbal final : public Gimbal {
   std::optional<GimbalCommand> wanted_;  // not yet sent
   std::int64_t commands_ = 0;
   Clock::time_point sent_at_;
-  std::vector<GimbalCommand> log_;
+  CommandLog log_;
   Events events_;
   mutable GimbalMotion motion_;
   mutable std::deque<GimbalState> states_;

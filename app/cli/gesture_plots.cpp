@@ -4,6 +4,7 @@
 #include <array>
 #include <iomanip>
 #include <set>
+#include <utility>
 
 namespace armsreach::app {
 namespace {
@@ -11,7 +12,9 @@ namespace {
 constexpr double kPlot = 400;  // px, side of the curves' square
 constexpr double kLeft = 60;
 constexpr double kTop = 30;
-constexpr double kCell = 56;      // px, of the matrix
+constexpr double kCell = 56;         // px, of the matrix
+constexpr double kMatrixLeft = 110;  // px, with the rows' names and their title
+constexpr double kMatrixTop = 70;
 constexpr double kMostFalse = 1;  // shown range of false detections
 constexpr std::array<const char*, 6> kColors{"#0b5fff", "#d1495b", "#2e8b57",
                                              "#b8860b", "#7b4fb0", "#444444"};
@@ -37,6 +40,13 @@ void text(std::ostream& out, double x, double y, const char* anchor, const std::
   out << "</text>\n";
 }
 
+// Read from below, `x` and `y` its middle.
+void upright_text(std::ostream& out, double x, double y, const std::string& what) {
+  out << "<g transform=\"translate(" << x << ' ' << y << ") rotate(-90)\">";
+  text(out, 0, 0, "middle", what);
+  out << "</g>\n";
+}
+
 void axes(std::ostream& out) {
   for (int tenth = 0; tenth <= 10; tenth += 2) {
     const double at = kPlot * tenth / 10;
@@ -47,9 +57,32 @@ void axes(std::ostream& out) {
     text(out, kLeft - 8, kTop + kPlot - at + 4, "end", number);
   }
   text(out, kLeft + kPlot / 2, kTop + kPlot + 40, "middle", "false positive rate");
-  out << "<g transform=\"translate(18 " << kTop + kPlot / 2 << ") rotate(-90)\">";
-  text(out, 0, 0, "middle", "detection rate");
-  out << "</g>\n";
+  upright_text(out, 18, kTop + kPlot / 2, "detection rate");
+}
+
+// All gestures in order, then silence.
+std::vector<std::string> columns_of(const Confusion& confusion) {
+  std::set<std::string> names;
+  for (const auto& [truth, row] : confusion) {
+    names.insert(truth);
+    for (const auto& [name, count] : row) {
+      if (!name.empty()) names.insert(name);
+    }
+  }
+  std::vector<std::string> columns(names.begin(), names.end());
+  columns.emplace_back();
+  return columns;
+}
+
+// The deeper the colour, the larger the share of its row.
+void cell(std::ostream& out, double x, double y, const char* color, int count, int total) {
+  const double share = static_cast<double>(count) / std::max(1, total);
+  for (const auto& [fill, opacity] : {std::pair("#f3f3f3", 1.0), std::pair(color, 0.8 * share)}) {
+    out << "<rect x=\"" << x << "\" y=\"" << y << "\" width=\"" << kCell - 2 << "\" height=\""
+        << kCell - 2 << "\" rx=\"4\" fill=\"" << fill << "\" fill-opacity=\""
+        << std::setprecision(3) << opacity << std::setprecision(1) << "\"/>\n";
+  }
+  if (count > 0) text(out, x + kCell / 2 - 1, y + kCell / 2 + 4, "middle", std::to_string(count));
 }
 
 }  // namespace
@@ -75,43 +108,29 @@ void write_curves_svg(std::ostream& out, const std::vector<NamedCurve>& curves) 
 }
 
 void write_confusion_svg(std::ostream& out, const Confusion& confusion) {
-  std::set<std::string> names;
-  for (const auto& [truth, row] : confusion) {
-    names.insert(truth);
-    for (const auto& [name, count] : row) {
-      if (!name.empty()) names.insert(name);
-    }
+  const std::vector<std::string> columns = columns_of(confusion);
+  const double width = kCell * static_cast<double>(columns.size());
+  const double height = kCell * static_cast<double>(confusion.size());
+  begin(out, kMatrixLeft + width + 20, kMatrixTop + height + 20);
+  text(out, kMatrixLeft + width / 2, 22, "middle", "told");
+  upright_text(out, 22, kMatrixTop + height / 2, "shown");
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    text(out, kMatrixLeft + kCell * (static_cast<double>(i) + 0.5), kMatrixTop - 12, "middle",
+         columns[i].empty() ? "nothing" : columns[i]);
   }
-  std::vector<std::string> columns(names.begin(), names.end());
-  columns.emplace_back();
-  const double left = 90;
-  begin(out, left + kCell * static_cast<double>(columns.size()) + 20,
-        kTop + kCell * static_cast<double>(confusion.size()) + 40);
-  double y = kTop;
+  double y = kMatrixTop;
   for (const auto& [truth, row] : confusion) {
     int total = 0;
     for (const auto& [name, count] : row) total += count;
-    text(out, left - 10, y + kCell / 2 + 4, "end", truth);
-    double x = left;
+    text(out, kMatrixLeft - 10, y + kCell / 2 + 4, "end", truth);
+    double x = kMatrixLeft;
     for (const std::string& column : columns) {
       const auto found = row.find(column);
-      const int count = found == row.end() ? 0 : found->second;
-      const double share = static_cast<double>(count) / std::max(1, total);
       const char* color = column.empty() ? "#888888" : column == truth ? "#0b5fff" : "#d1495b";
-      out << "<rect x=\"" << x << "\" y=\"" << y << "\" width=\"" << kCell - 2 << "\" height=\""
-          << kCell - 2 << "\" rx=\"4\" fill=\"#f3f3f3\"/>\n"
-          << "<rect x=\"" << x << "\" y=\"" << y << "\" width=\"" << kCell - 2 << "\" height=\""
-          << kCell - 2 << "\" rx=\"4\" fill=\"" << color << "\" fill-opacity=\""
-          << std::setprecision(3) << 0.8 * share << std::setprecision(1) << "\"/>\n";
-      if (count > 0)
-        text(out, x + kCell / 2 - 1, y + kCell / 2 + 4, "middle", std::to_string(count));
+      cell(out, x, y, color, found == row.end() ? 0 : found->second, total);
       x += kCell;
     }
     y += kCell;
-  }
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    text(out, left + kCell * (static_cast<double>(i) + 0.5), y + 18, "middle",
-         columns[i].empty() ? "silent" : columns[i]);
   }
   out << "</svg>\n";
 }

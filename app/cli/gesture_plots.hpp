@@ -17,7 +17,7 @@ struct NamedCurve {
 // Figure 3 of the wearable paper: one curve for each number of samples.
 void write_curves_svg(std::ostream& out, const std::vector<NamedCurve>& curves);
 
-// How often each gesture (row) was named as which (column; "" is silence).
+// How often each gesture shown (row) was told as which (column; "" is silence).
 using Confusion = std::map<std::string, std::map<std::string, int>>;
 void write_confusion_svg(std::ostream& out, const Confusion& confusion);
 

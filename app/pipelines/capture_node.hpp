@@ -51,7 +51,6 @@ class CaptureNode final : public Node {
   std::optional<Error> failure_;
   std::optional<Error> broken_;  // the last
   std::int64_t delivered_ = 0;
-  Timestamp last_time_ = 0;
   int broken_in_a_row_ = 0;
 
   // Live pace of a recording: wall time of source time zero.

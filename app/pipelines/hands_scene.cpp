@@ -21,8 +21,10 @@ std::vector<Eigen::Vector2f> resampled(const std::vector<cv::Point>& outline) {
     const Eigen::Vector2f from(static_cast<float>(a.x), static_cast<float>(a.y));
     const Eigen::Vector2f to(static_cast<float>(b.x), static_cast<float>(b.y));
     const float length = (to - from).norm();
-    for (; left < length; left += kOutlineStep)
+    while (left < length) {
       points.push_back(from + left / length * (to - from));
+      left += kOutlineStep;
+    }
     left -= length;
   }
   return points;

@@ -171,6 +171,7 @@ std::optional<ComposeInput> Pipeline::take_composing() {
 
 void Pipeline::join_composing(const std::vector<SavedObject>& objects) {
   std::vector<PlacedObject> placed;
+  placed.reserve(objects.size());
   for (const SavedObject& object : objects) {
     placed.push_back({object.id, object.mesh, {0, object.world_from_object}, false});
   }

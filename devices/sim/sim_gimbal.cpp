@@ -36,7 +36,7 @@ std::optional<GimbalState> SimGimbal::state_at(Timestamp time) const {
 
 std::vector<GimbalCommand> SimGimbal::take_commands() {
   const std::lock_guard lock(mutex_);
-  return std::exchange(log_, {});
+  return log_.take();
 }
 
 GimbalState SimGimbal::advance(Timestamp time) {
@@ -52,7 +52,7 @@ GimbalState SimGimbal::advance(Timestamp time) {
 
 void SimGimbal::obey(const GimbalCommand& command) {
   motion_.command(command);
-  log_.push_back({command.time, clamped(model(), command.angles)});
+  log_.add({command.time, clamped(model(), command.angles)});
 }
 
 }  // namespace armsreach::sim

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "devices/command_log.hpp"
 #include "devices/gimbal.hpp"
 #include "vision/core/gimbal_motion.hpp"
 
@@ -34,7 +35,7 @@ class SimGimbal final : public Gimbal {
   mutable std::mutex mutex_;
   GimbalMotion motion_;
   std::deque<GimbalCommand> script_;  // not yet given
-  std::vector<GimbalCommand> log_;
+  CommandLog log_;
   std::deque<GimbalState> measured_;
 };
 

@@ -142,7 +142,7 @@ TEST(EndToEndSpeech, LiveWithoutASoundDeviceIsAFaultAndTheRunGoesOn) {
     GTEST_SKIP() << "xvfb-run is not installed";
   const TemporaryFolder folder;
   const std::string command =
-      "ALSA_CONFIG_PATH=/dev/null timeout 60 xvfb-run -a " ARMSREACH_BINARY_DIR
+      "ALSA_CONFIG_PATH=/dev/null timeout 300 xvfb-run -a " ARMSREACH_BINARY_DIR
       "/armsreach run --source sim:bench --display window --frames 60 --events " +
       (folder / "e.jsonl").string() + " >/dev/null 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0);

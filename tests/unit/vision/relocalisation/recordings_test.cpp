@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include <gtest/gtest.h>
-#include <opencv2/core/utility.hpp>
+#include <opencv2/core.hpp>
 
 #include "devices/open.hpp"
 #include "vision/relocalisation/relocaliser.hpp"
@@ -69,7 +69,6 @@ Kidnaps kidnap_odd(const Relocaliser& relocaliser, const std::vector<FramePtr>& 
 }
 
 Kidnaps evaluated(const std::string& name, const std::vector<FramePtr>& frames) {
-  cv::setNumThreads(1);
   const Relocaliser relocaliser = map_of_even(frames);
   const Kidnaps kidnaps = kidnap_odd(relocaliser, frames);
   std::cout << name << ": " << relocaliser.key_frames().size() << " key frames, "

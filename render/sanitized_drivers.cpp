@@ -1,6 +1,7 @@
-// In programs built with AddressSanitizer: a few hundred bytes that Mesa keeps for each context,
-// and a few thousand that OpenNI2 keeps each time it is started, are not our leaks. The drivers are
-// held in memory so that their frames still have a name at exit.
+// In programs built with a sanitizer the drivers are held in memory: AddressSanitizer names their
+// frames at exit, and ThreadSanitizer ends a program that unloads a library it has a rule for. A
+// few hundred bytes that Mesa keeps for each context, and a few thousand that OpenNI2 keeps each
+// time it is started, are not our leaks.
 #include <cstdio>
 #include <dlfcn.h>
 #include <initializer_list>
