@@ -115,7 +115,7 @@ BENCHMARK(match_beside_match_template)
     ->Arg(300)
     ->Unit(benchmark::kMillisecond);
 
-// Shape and gesture of a frame's hands from its mask, 320x240.
+// Shape, texture and gesture of a frame's hands from its mask and colours, 320x240.
 void gestures_of_a_frame(benchmark::State& state) {
   const auto templates = static_cast<int>(state.range(0));
   const bool two = state.range(1) == 2;
@@ -123,8 +123,13 @@ void gestures_of_a_frame(benchmark::State& state) {
   const cv::Mat one = hand(sim::Gesture::L, 150, 0);
   one.copyTo(frame(cv::Rect(5, 90, 150, 150)));
   if (two) one.copyTo(frame(cv::Rect(165, 90, 150, 150)));
-  const GestureDetector detector(bank(linear_rings(), templates));
-  for (auto _ : state) benchmark::DoNotOptimize(detector.detect(frame));
+  cv::Mat bgr(frame.size(), CV_8UC3);
+  cv::RNG(1).fill(bgr, cv::RNG::UNIFORM, 60, 90);
+  cv::add(bgr, cv::Scalar(30, 60, 110), bgr, frame);
+  GestureDetectorOptions options;
+  options.texture = TextureModel();
+  const GestureDetector detector(bank(linear_rings(), templates), options);
+  for (auto _ : state) benchmark::DoNotOptimize(detector.detect(frame, bgr));
 }
 BENCHMARK(gestures_of_a_frame)
     ->ArgNames({"templates", "hands"})

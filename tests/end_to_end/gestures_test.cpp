@@ -233,6 +233,41 @@ TEST(EndToEndGestures, AMissedHandCountsAndAnUnknownClassIsRefused) {
   EXPECT_THAT(unknown.output, HasSubstr("'wave' is no gesture of the templates (they know f1 f4"));
 }
 
+// Hands with a dark crease between their fingers, and the same outlines smooth.
+TEST(EndToEndGestures, WhatHandsLookLikeWithinIsLearnt) {
+  TemporaryFolder folder;
+  const auto write = [&](const std::string& name, int i, bool creased) {
+    cv::Mat hand = drawn_hand(2 + i % 3, 20 * i - 40);
+    if (creased) {
+      for (const int x : {148, 160, 172})
+        cv::line(hand, {x, 125}, {x, 150}, cv::Scalar(60, 75, 105), 3, cv::LINE_AA);
+    }
+    std::filesystem::create_directories(folder / name);
+    cv::imwrite(folder / name / (std::to_string(i) + ".png"), hand);
+  };
+  for (int i = 0; i < 6; ++i) {
+    write("hands", i, true);
+    write("boxes", i, false);
+  }
+  const std::string model = folder / "hands.txt", json = folder / "found.json";
+  const auto learnt = run_armsreach(
+      {"learn", "hands", folder / "hands", "--without", folder / "boxes", "--out", model});
+  ASSERT_EQ(learnt.exit_code, 0) << learnt.output;
+  EXPECT_THAT(learnt.output, HasSubstr("learnt from 6 hands"));
+  const auto none = run_armsreach(
+      {"learn", "hands", folder / "hands", "--without", folder / "nowhere", "--out", model});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.output, HasSubstr("nowhere"));
+  const auto missing = run_armsreach(
+      {"detect", "gestures", folder / "hands", "--hands", folder / "none.txt", "--json", json});
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_THAT(missing.output, HasSubstr("learn hands"));
+  const auto found =
+      run_armsreach({"detect", "gestures", folder / "hands", "--hands", model, "--json", json});
+  EXPECT_EQ(found.exit_code, 0) << found.output;
+  EXPECT_EQ(nlohmann::json::parse(read_text(json)).size(), 6U);
+}
+
 TEST(EndToEndGestures, WhatIsWrongIsSaid) {
   TemporaryFolder folder;
   const std::string json = (folder / "found.json").string();

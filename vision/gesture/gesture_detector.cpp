@@ -169,7 +169,7 @@ GestureDetectorOptions options_for(const TemplateSet& set, std::optional<Texture
   } else if (numerals) {
     options.least_score = 0.9;
     options.least_margin = 0.002;
-    options.least_log_odds = -0.25;  // weighed by other gestures
+    options.least_log_odds = -0.45;  // weighed by other gestures
   } else {
     options.least_score = 0.8;
     options.least_margin = 0;
@@ -223,7 +223,7 @@ bool any_told(const HandObservations& hands) {
 }
 
 HandObservations likelier(HandObservations one, HandObservations other) {
-  return most_evidence(other) > most_evidence(one) ? other : one;
+  return most_evidence(other) > most_evidence(one) ? std::move(other) : std::move(one);
 }
 
 std::vector<HandBlob> find_hands(const HandFinder& finder, const cv::Mat& skin,
