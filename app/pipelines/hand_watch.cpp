@@ -15,6 +15,9 @@ constexpr double kFade = 0.4;      // s, in which 63 % of a way are forgotten
 constexpr double kFar = 0.35;      // sizes: ragged blobs move by less
 constexpr double kKept = 0.5;      // s out of sight, as long as its number
 constexpr double kRemembered = 5;  // s for which what has moved is a hand
+// Log odds by which what rests must exceed what moves, that the latter is the view of the wall
+// behind it.
+constexpr double kMuchLikelier = 3;
 
 double seconds_between(Timestamp from, Timestamp to) { return seconds_from_timestamp(to - from); }
 
@@ -31,8 +34,8 @@ std::optional<Vector2d> HandWatch::update(const HandsState& hands, const Frame& 
   });
   if (!hands.hands.empty() || hands.unproven.empty()) return std::nullopt;
   const auto turn = turn_meter_.measure(Eigen::Quaterniond::Identity());
-  std::optional<Timestamp> latest;
-  std::optional<Vector2d> moving;
+  double most_evidence = gesture::kNoEvidence;
+  const Track* likeliest = nullptr;  // of those that have moved
   for (const gesture::Hand& hand : hands.unproven) {
     const auto [entry, is_new] = tracks_.try_emplace(hand.id, Track{.since = frame.time});
     Track& track = entry->second;
@@ -40,12 +43,14 @@ std::optional<Vector2d> HandWatch::update(const HandsState& hands, const Frame& 
     if (turn && !is_new) follow(track, hand, frame.time, turn->before_from_after);
     track.time = frame.time;
     track.center = hand.seen.center;
+    track.evidence = std::max(track.evidence, hand.seen.evidence);
+    most_evidence = std::max(most_evidence, track.evidence);
     if (!track.moved || seconds_between(*track.moved, frame.time) > kRemembered) continue;
-    if (latest && *track.moved <= *latest) continue;
-    latest = track.moved;
-    moving = hand.seen.center;
+    if (likeliest == nullptr || track.evidence > likeliest->evidence) likeliest = &track;
   }
-  return moving;
+  if (likeliest == nullptr || likeliest->evidence < most_evidence - kMuchLikelier)
+    return std::nullopt;
+  return likeliest->center;
 }
 
 // A step counts where the hand has made more of it than the picture.

@@ -19,17 +19,18 @@ class HandWatch {
   // `camera`: whose pixels hands are seen in.
   explicit HandWatch(const Camera& camera) : camera_(camera), turn_meter_(camera) {}
 
-  // To be called with every frame. The centre [px] of the unproven hand that has moved last; none
-  // while there is a proven one.
+  // To be called with every frame. The centre [px] of the unproven hand that, of those that have
+  // moved lately, is the likeliest to be one; none while there is a proven one.
   std::optional<Eigen::Vector2d> update(const HandsState& hands, const Frame& frame);
 
  private:
   struct Track {
     Timestamp since = 0;
     Timestamp time = 0;
-    Eigen::Vector2d center{0, 0};      // px
-    Eigen::Vector2d way{0, 0};         // sizes of the hand, that it has moved by itself lately
-    std::optional<Timestamp> moved{};  // when it had moved far enough
+    Eigen::Vector2d center{0, 0};  // px
+    Eigen::Vector2d way{0, 0};     // sizes of the hand, that it has moved by itself lately
+    double evidence = gesture::kNoEvidence;  // the most there was that it is a hand
+    std::optional<Timestamp> moved{};        // when it had moved far enough
   };
   void follow(Track& track, const gesture::Hand& hand, Timestamp time,
               const Eigen::Quaterniond& before_from_now) const;

@@ -60,7 +60,7 @@ cv::Mat brightness_of(const cv::Mat& bgr, const HandObservation& hand,
 
 // 1 inside of the outline but for its edge, which tells of what is behind.
 cv::Mat inside_of(const HandObservation& hand, const cv::Matx23d& patch_from) {
-  constexpr int kFiner = 4;  // so that the edge is where it is to a fraction of a pixel
+  constexpr int kFiner = 2;  // so that the edge is where it is to a fraction of a pixel
   std::vector<cv::Point> outline;
   for (const cv::Point& at : hand.outline) {
     const cv::Vec2d in_patch = patch_from * cv::Vec3d(at.x, at.y, 1);
@@ -74,6 +74,21 @@ cv::Mat inside_of(const HandObservation& hand, const cv::Matx23d& patch_from) {
   cv::erode(inside, inside, cv::Mat());
   inside.convertTo(inside, CV_32F);
   return inside;
+}
+
+// The brightness inside, spread over all of the patch; far from the hand it fades to black. Smooth,
+// so that half the resolution is enough.
+cv::Mat around_of(const cv::Mat& brightness, const cv::Mat& inside) {
+  constexpr double kFaintest = 1e-3;
+  const auto spread = [](const cv::Mat& values) {
+    cv::Mat half;
+    cv::resize(values, half, {}, 0.5, 0.5, cv::INTER_AREA);
+    cv::GaussianBlur(half, half, {}, kFill / 2);
+    return half;
+  };
+  cv::Mat around = spread(brightness.mul(inside)) / (spread(inside) + kFaintest);
+  cv::resize(around, around, brightness.size(), 0, 0, cv::INTER_LINEAR);
+  return around;
 }
 
 Cells histograms(const cv::Mat& patch) {
@@ -131,12 +146,9 @@ cv::Mat texture_patch(const cv::Mat& bgr, const HandObservation& hand) {
   const cv::Matx23d patch_from = patch_from_image(hand);
   const cv::Mat brightness = brightness_of(bgr, hand, patch_from);
   const cv::Mat inside = inside_of(hand, patch_from);
-  cv::Mat around, weight;
-  cv::GaussianBlur(brightness.mul(inside), around, {}, kFill);
-  cv::GaussianBlur(inside, weight, {}, kFill);
-  around /= weight + 1e-3;
-  brightness.copyTo(around, inside > 0);
-  return around;
+  cv::Mat patch = around_of(brightness, inside);
+  brightness.copyTo(patch, inside > 0);
+  return patch;
 }
 
 TextureFeatures texture_features(const cv::Mat& bgr, const HandObservation& hand) {

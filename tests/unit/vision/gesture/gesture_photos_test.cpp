@@ -56,8 +56,7 @@ TEST(GesturePhotos, NumeralsOfUnseenPeople) {
 }
 
 // People whose number divides by five are in no template. Skin and all, as the program does it.
-// Measured: right 0.955, wrong 0.023. Over five such parts of the people, each with templates of
-// the others, an earlier bank made likewise reached about 0.957 and 0.027.
+// Measured: right 0.970, wrong 0.008.
 TEST(GesturePhotos, PhotographedNumeralsOfUnseenPeople) {
   ARMSREACH_RECORDING_OR_SKIP(digits, "hands/digits");
   SkinSegmenter skin = test::own_segmenter();
@@ -74,7 +73,7 @@ TEST(GesturePhotos, PhotographedNumeralsOfUnseenPeople) {
   std::cout << "right " << rates.share(rates.right) << ", wrong " << rates.share(rates.wrong)
             << " of " << rates.all << '\n';
   EXPECT_GE(rates.share(rates.right), 0.95);
-  EXPECT_LE(rates.share(rates.wrong), 0.025);
+  EXPECT_LE(rates.share(rates.wrong), 0.02);
 }
 
 // Before shirts, and before a wall that is not of skin's colour.
@@ -114,14 +113,15 @@ TEST(GesturePhotos, FiveGesturesOfUnseenPeopleFromColour) {
               every.right, every.wrong);
   std::printf("%d on plain backgrounds: told right %d, wrong %d\n", plain.all, plain.right,
               plain.wrong);
-  // Two or three photos below what is reached: 0.91 likeliest, 0.80 told right and 0.035 wrong
-  // (three of the four are one person's pinch that is a fist in outline). The targets are 0.85 and
-  // 0.02.
-  EXPECT_GE(likeliest, 0.89 * every.all);
-  EXPECT_GE(every.right, 0.77 * every.all);
-  EXPECT_LE(every.wrong, 0.05 * every.all);
-  EXPECT_GE(plain.right, 0.85 * plain.all);  // the target is 0.95
-  EXPECT_LE(plain.wrong, 0.05 * plain.all);
+  // Two or three photos beside what is reached: 0.92 likeliest, 0.89 told right and 0.026 wrong
+  // (all three one person's pinch that is a fist in outline), 0.95 before plain backgrounds. These
+  // people are among those the evidence was weighed by: with each left out of that it is 0.85 and
+  // 0.018, and 0.92 before plain backgrounds. The targets are 0.85, 0.02 and 0.95.
+  EXPECT_GE(likeliest, 0.90 * every.all);
+  EXPECT_GE(every.right, 0.87 * every.all);
+  EXPECT_LE(every.wrong, 0.035 * every.all);
+  EXPECT_GE(plain.right, 0.925 * plain.all);
+  EXPECT_EQ(plain.wrong, 0);
 }
 
 struct Room {
