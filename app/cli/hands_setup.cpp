@@ -62,7 +62,7 @@ class Looking {
     const cv::Mat skin = within_reach(skin_.segment(bgr), frame);
     auto hands = hands_.detect(skin, bgr);
     if (skin_.adapted() && !gesture::any_told(hands)) {
-      // What tells nothing either is not taken: hands would jump from one mask's to the other's.
+      // As GestureDetector does with several masks; the second is rarely needed.
       auto others = hands_.detect(within_reach(skin_.segment_unadapted(bgr), frame), bgr);
       if (gesture::any_told(others)) hands = std::move(others);
     }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -55,7 +56,7 @@ class Examples {
 
   // The likeliest hand of a picture.
   void add_hand(const HandPicture& picture) {
-    const auto hands = finder_.detect(picture.skins, picture.bgr);
+    const auto hands = look(picture.skins, picture.bgr);
     const auto likeliest = std::max_element(
         hands.begin(), hands.end(),
         [](const auto& one, const auto& other) { return one.evidence < other.evidence; });
@@ -64,8 +65,7 @@ class Examples {
   void add_others(const cv::Mat& bgr, gesture::SkinSegmenter* skin) {
     for (int hue = 0; hue < kHues; ++hue) {
       const cv::Mat turned = in_hue(bgr, hue);
-      for (const auto& hand : finder_.detect(skin->segmentations(turned), turned))
-        add(turned, hand, false);
+      for (const auto& hand : look(skin->segmentations(turned), turned)) add(turned, hand, false);
     }
   }
   // All since the last call weigh as much as any other place's.
@@ -77,6 +77,12 @@ class Examples {
   const std::vector<gesture::TextureExample>& all() const { return all_; }
 
  private:
+  gesture::HandObservations look(const std::vector<cv::Mat>& skins, const cv::Mat& bgr) const {
+    gesture::HandObservations hands;
+    for (const cv::Mat& skin : skins)
+      hands = gesture::likelier(std::move(hands), finder_.detect(skin, bgr));
+    return hands;
+  }
   void add(const cv::Mat& bgr, const gesture::HandObservation& hand, bool is_hand) {
     if (hand.evidence == gesture::kNoEvidence) return;
     all_.push_back({gesture::texture_features(bgr, hand), is_hand, 1});
@@ -87,6 +93,45 @@ class Examples {
   std::size_t weighed_ = 0;
 };
 
+// What each place shows; one that cannot be read is left out with a warning.
+void look_at(const std::vector<std::string>& places, const std::string& skin,
+             const std::function<void(const HandPicture&)>& look, Examples* examples) {
+  for (const std::string& place : places) {
+    const std::size_t before = examples->all().size();
+    int pictures = 0;
+    const auto status = for_readable_hand_pictures({place}, {skin, ""}, [&](const HandPicture& p) {
+      ++pictures;
+      look(p);
+    });
+    if (!status)
+      std::fprintf(stderr, "armsreach: left out: %s\n", status.error().message().c_str());
+    std::printf("%s: %zu in %d pictures\n", place.c_str(), examples->all().size() - before,
+                pictures);
+    examples->end_place();
+  }
+}
+
+// Of each kind: fewer say nothing of what hands have in common.
+Status check_enough(std::size_t hands, std::size_t others) {
+  constexpr std::size_t kFewest = 20;
+  if (hands >= kFewest && others >= kFewest) return ok();
+  return Error{"only " + std::to_string(hands) + " hands and " + std::to_string(others) +
+                   " other things of a hand's size and colour are found",
+               "learn hands",
+               "give pictures of at least " + std::to_string(kFewest) +
+                   " hands, one in each, and of wood, walls and boxes of skin's colour without"};
+}
+
+double told_right(const gesture::TextureModel& model,
+                  const std::vector<gesture::TextureExample>& examples) {
+  double right = 0, all = 0;
+  for (const gesture::TextureExample& one : examples) {
+    all += one.weight;
+    if ((model.log_odds(one.features) > 0) == one.hand) right += one.weight;
+  }
+  return right / all;
+}
+
 Status learn(const LearnHandsOptions& options) {
   auto templates = load_templates("", "wearable");
   if (!templates) return templates.error();
@@ -95,29 +140,22 @@ Status learn(const LearnHandsOptions& options) {
   gesture::SkinSegmenter skin(*std::move(model),
                               {.adaptation = gesture::SkinOptions::Adaptation::image});
   Examples examples(*templates);
-  const SkinSource source{options.skin, ""};
-  for (const std::string& place : options.with) {
-    const auto status = for_readable_hand_pictures(
-        {place}, source, [&](const HandPicture& picture) { examples.add_hand(picture); });
-    if (!status) return status;
-    examples.end_place();
-  }
+  look_at(
+      options.with, options.skin, [&](const HandPicture& p) { examples.add_hand(p); }, &examples);
   const std::size_t hands = examples.all().size();
-  for (const std::string& place : options.without) {
-    const auto status = for_readable_hand_pictures(
-        {place}, source,
-        [&](const HandPicture& picture) { examples.add_others(picture.bgr, &skin); });
-    if (!status) return status;
-    examples.end_place();
-  }
+  look_at(
+      options.without, options.skin,
+      [&](const HandPicture& p) { examples.add_others(p.bgr, &skin); }, &examples);
+  const std::size_t others = examples.all().size() - hands;
+  if (auto status = check_enough(hands, others); !status) return status;
   auto texture = gesture::fitted_texture_model(examples.all(), "learn hands");
   if (!texture) return texture.error();
   if (auto status = write_file(
           options.out, [&](std::ostream& out) { gesture::write_texture_model(out, *texture); });
       !status)
     return status;
-  std::printf("%s: learnt from %zu hands and %zu other things\n", options.out.c_str(), hands,
-              examples.all().size() - hands);
+  std::printf("%s: learnt from %zu hands and %zu other things, of which it tells %.0f %%\n",
+              options.out.c_str(), hands, others, 100 * told_right(*texture, examples.all()));
   return ok();
 }
 

@@ -17,7 +17,7 @@ constexpr double kKept = 0.5;      // s out of sight, as long as its number
 constexpr double kRemembered = 5;  // s for which what has moved is a hand
 // Log odds by which what rests must exceed what moves, that the latter is the view of the wall
 // behind it.
-constexpr double kMuchLikelier = 3;
+constexpr double kMuchLikelier = 2;
 
 double seconds_between(Timestamp from, Timestamp to) { return seconds_from_timestamp(to - from); }
 
@@ -34,7 +34,7 @@ std::optional<Vector2d> HandWatch::update(const HandsState& hands, const Frame& 
   });
   if (!hands.hands.empty() || hands.unproven.empty()) return std::nullopt;
   const auto turn = turn_meter_.measure(Eigen::Quaterniond::Identity());
-  double most_evidence = gesture::kNoEvidence;
+  double most_evidence = kLeastEvidence;
   const Track* likeliest = nullptr;  // of those that have moved
   for (const gesture::Hand& hand : hands.unproven) {
     const auto [entry, is_new] = tracks_.try_emplace(hand.id, Track{.since = frame.time});

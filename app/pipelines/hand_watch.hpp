@@ -24,13 +24,15 @@ class HandWatch {
   std::optional<Eigen::Vector2d> update(const HandsState& hands, const Frame& frame);
 
  private:
+  // A hand that is badly cut out has less: less than this says nothing.
+  static constexpr double kLeastEvidence = -5;
   struct Track {
     Timestamp since = 0;
     Timestamp time = 0;
-    Eigen::Vector2d center{0, 0};  // px
-    Eigen::Vector2d way{0, 0};     // sizes of the hand, that it has moved by itself lately
-    double evidence = gesture::kNoEvidence;  // the most there was that it is a hand
-    std::optional<Timestamp> moved{};        // when it had moved far enough
+    Eigen::Vector2d center{0, 0};      // px
+    Eigen::Vector2d way{0, 0};         // sizes of the hand, that it has moved by itself lately
+    double evidence = kLeastEvidence;  // the most there was that it is a hand
+    std::optional<Timestamp> moved{};  // when it had moved far enough
   };
   void follow(Track& track, const gesture::Hand& hand, Timestamp time,
               const Eigen::Quaterniond& before_from_now) const;

@@ -169,7 +169,7 @@ GestureDetectorOptions options_for(const TemplateSet& set, std::optional<Texture
   } else if (numerals) {
     options.least_score = 0.9;
     options.least_margin = 0.002;
-    options.least_log_odds = -0.45;  // weighed by other gestures
+    options.least_log_odds = -0.25;  // weighed by other gestures
   } else {
     options.least_score = 0.8;
     options.least_margin = 0;
@@ -223,6 +223,7 @@ bool any_told(const HandObservations& hands) {
 }
 
 HandObservations likelier(HandObservations one, HandObservations other) {
+  if (any_told(one) != any_told(other)) return any_told(one) ? std::move(one) : std::move(other);
   return most_evidence(other) > most_evidence(one) ? std::move(other) : std::move(one);
 }
 
@@ -312,9 +313,9 @@ HandObservations GestureDetector::detect(const cv::Mat& skin, const cv::Mat& bgr
 HandObservations GestureDetector::detect(const std::vector<cv::Mat>& skins,
                                          const cv::Mat& bgr) const {
   HandObservations hands;
-  for (const cv::Mat& skin : skins) {
-    hands = likelier(std::move(hands), detect(skin, bgr));
-    if (any_told(hands)) break;
+  for (std::size_t i = 0; i < skins.size() && !any_told(hands); ++i) {
+    HandObservations others = detect(skins[i], bgr);
+    if (i == 0 || any_told(others)) hands = std::move(others);
   }
   return hands;
 }

@@ -63,7 +63,8 @@ double own_angle(const RingMatcher& matcher, const HandShape& shape, std::size_t
 std::vector<HandBlob> find_hands(const HandFinder& finder, const cv::Mat& skin, const cv::Mat& bgr);
 
 bool any_told(const HandObservations& hands);
-// Of two looks at one picture, the one whose likeliest hand is likelier.
+// Of two looks at one picture, the one that tells a gesture, else the one whose likeliest hand is
+// likelier.
 HandObservations likelier(HandObservations one, HandObservations other);
 
 class GestureDetector {
@@ -77,7 +78,8 @@ class GestureDetector {
   // that a hand casts or without, and where no gesture is told, without walls of skin's colour;
   // whichever is likeliest to be hands.
   HandObservations detect(const cv::Mat& skin, const cv::Mat& bgr) const;
-  // The same in each of several masks until a gesture is told.
+  // The same in each of several masks until a gesture is told; where none is, what the first shows,
+  // so that hands do not jump from one mask's to another's.
   HandObservations detect(const std::vector<cv::Mat>& skins, const cv::Mat& bgr) const;
 
  private:

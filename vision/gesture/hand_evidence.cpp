@@ -8,14 +8,14 @@ namespace {
 
 // Logistic regression on photographs of five people's gestures and on rooms without hands; each
 // person and room judged by what the others taught. Each is scaled by about its spread.
-constexpr double kConstant = -0.65;
-constexpr double kLikenessScale = 0.03, kLikenessMiddle = 0.93, kLikenessWeight = 1.20;
-constexpr double kMarginMiddle = 0.01, kMarginWeight = 0.71;  // of its logarithm
+constexpr double kConstant = -0.22;
+constexpr double kLikenessScale = 0.03, kLikenessMiddle = 0.93, kLikenessWeight = 1.33;
+constexpr double kMarginMiddle = 0.01, kMarginWeight = 0.73;  // of its logarithm
 constexpr double kContactScale = 0.35, kContactMiddle = 0.4, kContactWeight = -0.52;
-constexpr double kSolidityScale = 0.1, kSolidityMiddle = 0.85, kSolidityWeight = -0.68;
-constexpr double kPlainWeight = -1.11, kPartedWeight = -0.41;
-constexpr double kEnoughShare = 0.06, kShareWeight = 1.24;  // of its logarithm, below that
-constexpr double kTextureWeight = 0.87;
+constexpr double kSolidityScale = 0.1, kSolidityMiddle = 0.85, kSolidityWeight = -0.69;
+constexpr double kPlainWeight = -1.25, kPartedWeight = -0.42;
+constexpr double kEnoughShare = 0.06, kShareWeight = 1.51;  // of its logarithm, below that
+constexpr double kTextureWeight = 0.56;
 // One gesture known, or one like no other, proves no hand; and least differences are chance.
 constexpr double kLeastMargin = 0.001, kMostMargin = 0.04;
 constexpr double kLeastShare = 1e-4;

@@ -91,7 +91,8 @@ std::vector<Color> sampled(const cv::Mat& bgr, const cv::Mat& mask) {
 cv::Mat without_walls(const cv::Mat& bgr, const cv::Mat& skin) {
   CV_Assert(bgr.type() == CV_8UC3 && skin.type() == CV_8UC1 && bgr.size() == skin.size());
   const double scale = std::max(1.0, static_cast<double>(bgr.cols) / kWidth);
-  const cv::Size size(static_cast<int>(bgr.cols / scale), static_cast<int>(bgr.rows / scale));
+  const cv::Size size(std::max(1, static_cast<int>(bgr.cols / scale)),
+                      std::max(1, static_cast<int>(bgr.rows / scale)));
   cv::Mat small, mask;
   cv::resize(bgr, small, size, 0, 0, cv::INTER_AREA);
   cv::resize(skin, mask, size, 0, 0, cv::INTER_NEAREST);

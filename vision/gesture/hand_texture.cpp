@@ -43,7 +43,7 @@ cv::Mat brightness_of(const cv::Mat& bgr, const HandObservation& hand,
   if (seen.empty()) return cv::Mat(kTextureSide, kTextureSide, CV_32FC1, cv::Scalar(0));
   cv::Mat grey;
   cv::cvtColor(bgr(seen), grey, cv::COLOR_BGR2GRAY);
-  const int step = std::clamp(static_cast<int>(std::sqrt(hand.area) / (2 * kScale)), 1,
+  const int step = std::clamp(static_cast<int>(std::sqrt(hand.area) / kScale), 1,
                               std::min(seen.width, seen.height));
   if (step > 1)
     cv::resize(grey, grey, {seen.width / step, seen.height / step}, 0, 0, cv::INTER_AREA);
@@ -76,17 +76,18 @@ cv::Mat inside_of(const HandObservation& hand, const cv::Matx23d& patch_from) {
   return inside;
 }
 
-// The brightness inside, spread over all of the patch; far from the hand it fades to black. Smooth,
-// so that half the resolution is enough.
+// The brightness inside, spread over all of the patch; far from the hand it is the hand's mean.
+// Smooth, so that half the resolution is enough.
 cv::Mat around_of(const cv::Mat& brightness, const cv::Mat& inside) {
-  constexpr double kFaintest = 1e-3;
+  constexpr double kLittle = 1e-3;
   const auto spread = [](const cv::Mat& values) {
     cv::Mat half;
     cv::resize(values, half, {}, 0.5, 0.5, cv::INTER_AREA);
     cv::GaussianBlur(half, half, {}, kFill / 2);
     return half;
   };
-  cv::Mat around = spread(brightness.mul(inside)) / (spread(inside) + kFaintest);
+  const double mean = cv::mean(brightness, inside > 0)[0];
+  cv::Mat around = (spread(brightness.mul(inside)) + kLittle * mean) / (spread(inside) + kLittle);
   cv::resize(around, around, brightness.size(), 0, 0, cv::INTER_LINEAR);
   return around;
 }
@@ -155,6 +156,20 @@ TextureFeatures texture_features(const cv::Mat& bgr, const HandObservation& hand
   return blocks_of(histograms(texture_patch(bgr, hand)));
 }
 
+TextureFeatures mirrored(const TextureFeatures& features) {
+  TextureFeatures mirror;
+  const float* value = features.data();
+  for (std::size_t row = 0; row < kTextureBlocks; ++row) {
+    for (std::size_t column = 0; column < kTextureBlocks; ++column) {
+      float* block = &mirror[(row * kTextureBlocks + kTextureBlocks - 1 - column) * kBlockSize];
+      for (std::size_t cell = 0; cell < 4; ++cell)
+        for (std::size_t bin = 0; bin < kTextureBins; ++bin)
+          block[(cell ^ 1) * kTextureBins + kTextureBins - 1 - bin] = *value++;
+    }
+  }
+  return mirror;
+}
+
 double TextureModel::log_odds(const TextureFeatures& features) const {
   return std::inner_product(weights.begin(), weights.end(), features.begin(), constant);
 }
@@ -163,13 +178,14 @@ Result<TextureModel> read_texture_model(std::istream& in, const std::string& whe
   constexpr const char* kRemedy = "write it again with `armsreach learn hands`";
   std::string format;
   std::getline(in, format);
+  if (format.ends_with('\r')) format.pop_back();  // of a Windows editor
   if (format != kFormat) return Error{"is no model of hands' texture", where, kRemedy};
   TextureModel model;
   in >> model.constant;
   for (float& weight : model.weights) in >> weight;
   std::string more;
   if (!in || in >> more) {
-    return Error{"holds not the " + std::to_string(kTextureSize + 1) + " numbers of the format",
+    return Error{"does not hold the " + std::to_string(kTextureSize + 1) + " numbers of its format",
                  where, kRemedy};
   }
   return model;

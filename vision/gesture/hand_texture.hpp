@@ -35,6 +35,9 @@ cv::Mat texture_patch(const cv::Mat& bgr, const HandObservation& hand);
 // `bgr`: CV_8UC3, in which the hand was seen.
 TextureFeatures texture_features(const cv::Mat& bgr, const HandObservation& hand);
 
+// Of the other hand: what the features of the image in a mirror are.
+TextureFeatures mirrored(const TextureFeatures& features);
+
 // A logistic model: how much likelier such a texture is of a hand than of something else.
 struct TextureModel {
   double constant = 0;

@@ -10,12 +10,13 @@
 namespace armsreach::gesture {
 namespace {
 
-constexpr double kRidge = 0.01;  // on the weights, of the mean loss
+constexpr double kRidge = 0.003;  // on the weights, of the mean loss
 constexpr int kRounds = 25;
 constexpr double kSettled = 1e-9;  // change of the loss
+constexpr double kLeastStep = 1e-9;
 constexpr auto kSize = static_cast<Eigen::Index>(kTextureSize);
 
-// One row an example, the last column 1.
+// Two rows an example, as it is and in the mirror; the last column 1.
 struct Regression {
   Eigen::MatrixXd features;
   Eigen::VectorXd sign, weight;  // +1 a hand, -1 none; all weights add up to 1
@@ -31,15 +32,17 @@ bool balance(std::vector<TextureExample>* examples) {
 }
 
 Regression regression_from(const std::vector<TextureExample>& examples) {
-  const auto rows = static_cast<Eigen::Index>(examples.size());
+  const auto rows = 2 * static_cast<Eigen::Index>(examples.size());
   Regression all{{rows, kSize + 1}, Eigen::VectorXd(rows), Eigen::VectorXd(rows)};
-  for (Eigen::Index row = 0; row < rows; ++row) {
-    const TextureExample& one = examples[static_cast<std::size_t>(row)];
-    all.features.row(row).head(kSize) =
-        Eigen::Map<const Eigen::VectorXf>(one.features.data(), kSize).cast<double>();
-    all.features(row, kSize) = 1;
-    all.sign[row] = one.hand ? 1 : -1;
-    all.weight[row] = one.weight;
+  Eigen::Index row = 0;
+  for (const TextureExample& one : examples) {
+    for (const TextureFeatures& features : {one.features, mirrored(one.features)}) {
+      all.features.row(row).head(kSize) =
+          Eigen::Map<const Eigen::VectorXf>(features.data(), kSize).cast<double>();
+      all.features(row, kSize) = 1;
+      all.sign[row] = one.hand ? 1 : -1;
+      all.weight[row++] = one.weight / 2;
+    }
   }
   return all;
 }
@@ -71,7 +74,7 @@ Eigen::VectorXd minimum(const Regression& all) {
   for (int round = 0; round < kRounds; ++round) {
     Eigen::VectorXd step = newton_step(all, beta);
     double next = loss(all, beta + step);
-    while (next > least && step.norm() > kSettled) {
+    while (next > least && step.norm() > kLeastStep) {
       step /= 2;
       next = loss(all, beta + step);
     }

@@ -14,7 +14,8 @@ struct TextureExample {
   double weight = 1;  // above 0
 };
 
-// Both kinds count alike, whatever their numbers. Fails where there is none of one kind; `where`
+// Both kinds count alike, whatever their numbers, and so do left and right hands: every example is
+// one in the mirror as well. Fails where there is none of one kind; `where`
 // names the examples in errors.
 Result<TextureModel> fitted_texture_model(std::vector<TextureExample> examples,
                                           const std::string& where);
