@@ -41,7 +41,9 @@ Status learn(const LearnGestureOptions& options) {
   const auto status =
       for_hand_pictures(options.pictures, options.skin, [&](const HandPicture& picture) -> Status {
         const auto blobs = gesture::find_hands(finder, picture.skins[0], picture.bgr);
-        if (blobs.empty() || !blobs[0].plausible) {
+        // Who gives the outline knows that it is a hand's, however much of the picture it fills.
+        const bool given = !options.skin.masks.empty();
+        if (blobs.empty() || (!given && !blobs[0].plausible)) {
           return Error{"no hand is found in it", picture.file,
                        "show one hand before something of another colour, fit the skin's colour "
                        "with `armsreach calibrate skin`, or give its outline with --masks"};

@@ -213,10 +213,11 @@ std::vector<HandBlob> HandFinder::find(const cv::Mat& mask) const {
     blob.contact = contact.pixels * factor;
     const HandShape& first = blob.readings[0];
     const double hand_share = first.area / static_cast<double>(mask.total());
-    const double most = contact.pixels > 0 ? options_.most_area : options_.most_area_inside;
-    blob.plausible =
-        hand_share >= options_.least_area && hand_share <= most &&
-        blob.contact < options_.most_contact * std::sqrt(cv::contourArea(blob.outline)) * factor;
+    const double root = std::sqrt(cv::contourArea(blob.outline)) * factor;
+    const bool inside = blob.contact < options_.least_contact * root;
+    const double most = inside ? options_.most_area_inside : options_.most_area;
+    blob.plausible = hand_share >= options_.least_area && hand_share <= most &&
+                     blob.contact < options_.most_contact * root;
     for (cv::Point& point : blob.outline)
       point = (point + one.origin) * factor + cv::Point(factor / 2, factor / 2);
     blobs.push_back(std::move(blob));

@@ -18,7 +18,9 @@ struct HandFinderOptions {
   // How much of its outline a blob has on the image's border, in units of the root of its own
   // area: a forearm that comes into the image is narrower, a wall broader.
   double most_contact = 1.8;
-  double most_area_inside = 0.6;  // of a hand that keeps clear of the border, as in a cut-out image
+  // Less is where a hand cut out of an image just touches the border: no arm is as narrow.
+  double least_contact = 0.25;
+  double most_area_inside = 0.7;  // of a hand that keeps clear of the border, as in a cut-out image
 };
 
 // Pixels are those of the image; a hand may be looked at in a smaller copy of it.

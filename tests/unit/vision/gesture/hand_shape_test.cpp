@@ -49,6 +49,16 @@ TEST(HandFinder, WallsAreNoHands) {
   EXPECT_TRUE(HandFinder().find(cv::Mat()).empty());
 }
 
+// Cut out so tightly that it touches the border in a point; an arm that comes in there is broader.
+TEST(HandFinder, AHandThatIsCutOutTightlyMayFillTheImage) {
+  cv::Mat touching(200, 200, CV_8UC1, cv::Scalar(0));
+  cv::circle(touching, {88, 100}, 88, 255, cv::FILLED);
+  EXPECT_TRUE(HandFinder().find(touching).at(0).plausible);
+  cv::Mat entering = touching.clone();
+  cv::rectangle(entering, {0, 60, 100, 80}, 255, cv::FILLED);
+  EXPECT_FALSE(HandFinder().find(entering).at(0).plausible);
+}
+
 TEST(HandFinder, TwoHandsTheLargerFirst) {
   sim::HandView near_one, far_one;
   near_one.distance = 0.8;
