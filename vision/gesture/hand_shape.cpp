@@ -120,8 +120,8 @@ std::array<Eigen::Vector2d, 2> ends_of(const std::vector<Eigen::Vector2d>& point
   return {one, farthest_from(one)};
 }
 
-HandShape shape_of(const Cutout& one, const cv::Mat& hand, const Palm& palm,
-                   const std::optional<WristCut>& cut, int factor) {
+HandShape shape_of(const Cutout& one, const cv::Mat& hand, const std::optional<WristCut>& cut,
+                   int factor) {
   const cv::Moments moments = cv::moments(hand, true);
   const auto in_image = [&](double x, double y) {
     // Pixels of a reduced image are as many pixels of the image wide.
@@ -135,8 +135,6 @@ HandShape shape_of(const Cutout& one, const cv::Mat& hand, const Palm& palm,
   const double count = std::max(1.0, moments.m00);
   shape.center = in_image(moments.m10 / count, moments.m01 / count);
   shape.area = count * factor * factor;
-  shape.palm = in_image(palm.center.x, palm.center.y);
-  shape.palm_radius = palm.radius * factor;
   if (cut) shape.to_arm = cut->to_arm;
   return shape;
 }
@@ -151,8 +149,7 @@ std::vector<HandShape> readings_of(const Cutout& one, const std::vector<cv::Poin
   const auto read_cut = [&](const Eigen::Vector2d& arm_end, const Palm& palm) {
     const auto cut = find_wrist(one.mask, palm, arm_end);
     const cv::Mat hand = cut ? cut_off(one.mask, palm, *cut) : one.mask;
-    readings.push_back(shape_of(one, hand, palm, cut, factor));
-    if (cut) readings.back().wrist_width = factor * width_at(filled, palm, *cut);
+    readings.push_back(shape_of(one, hand, cut, factor));
   };
   const Palm broadest = find_palm(distance, std::nullopt);
   if (contact.longest >= kLeastContact * broadest.radius) {
@@ -176,7 +173,7 @@ std::vector<HandShape> readings_of(const Cutout& one, const std::vector<cv::Poin
   read_arm_at(ends[0]);
   // Where no arm is at the end that is expected, one at the other may as well be fingers.
   const bool expected = !readings.empty();
-  if (!expected) readings.push_back(shape_of(one, one.mask, broadest, std::nullopt, factor));
+  if (!expected) readings.push_back(shape_of(one, one.mask, std::nullopt, factor));
   if (!expected || !told_apart) read_arm_at(ends[1]);
   return readings;
 }

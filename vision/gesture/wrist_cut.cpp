@@ -14,8 +14,6 @@ constexpr double kWrist = 1.45;       // where the hand is cut
 constexpr double kAxisFrom = 1.0;     // the forearm's part that gives its direction
 constexpr double kAxisTo = 2.8;
 
-constexpr double kWidest = 3.0;  // to either side, that is looked at
-
 constexpr float kPalmShare = 0.75F;  // of a blob's greatest breadth that a palm has at least
 
 Palm broadest(const cv::Mat& distance, const cv::Rect& within) {
@@ -72,24 +70,6 @@ std::optional<WristCut> find_wrist(const cv::Mat& blob, const Palm& palm,
   }
   if (sum.norm() == 0) sum = to_end;
   return WristCut{sum.normalized(), kWrist * palm.radius};
-}
-
-double width_at(const cv::Mat& blob, const Palm& palm, const WristCut& cut) {
-  constexpr double kStep = 0.5;  // px
-  const Eigen::Vector2d across(-cut.to_arm.y(), cut.to_arm.x());
-  const Eigen::Vector2d middle = vector_from(palm.center) + cut.offset * cut.to_arm;
-  double width = 0;
-  for (const double side : {-kStep, kStep}) {
-    Eigen::Vector2d at = middle;
-    for (double away = 0; away < kWidest * palm.radius; away += kStep, at += side * across) {
-      const int x = static_cast<int>(std::lround(at.x()));
-      const int y = static_cast<int>(std::lround(at.y()));
-      if (x < 0 || y < 0 || x >= blob.cols || y >= blob.rows || blob.at<std::uint8_t>(y, x) == 0)
-        break;
-      width += kStep;
-    }
-  }
-  return width;
 }
 
 cv::Mat cut_off(const cv::Mat& blob, const Palm& palm, const WristCut& cut) {

@@ -26,9 +26,6 @@ struct WristCut {
 std::optional<WristCut> find_wrist(const cv::Mat& blob, const Palm& palm,
                                    const Eigen::Vector2d& arm_end);
 
-// px, across the blob where a wrist that was found ends the hand.
-double width_at(const cv::Mat& blob, const Palm& palm, const WristCut& cut);
-
 // The blob without what lies beyond the cut.
 cv::Mat cut_off(const cv::Mat& blob, const Palm& palm, const WristCut& cut);
 
